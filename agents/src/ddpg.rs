@@ -1,0 +1,355 @@
+//! DDPG (Lillicrap 2015): the policy inside every option of chapter 3 (thesis 3.1.1).
+//!
+//! Learned from clips of one step by y = r + γ(1−d)Q'(s', μ'(s')), where d is a *termination*: truncations
+//! and time-outs bootstrap. The authors' actor has batch normalisation, which the thesis does not mention and
+//! most later implementations dropped (Fujimoto 2018, CleanRL); ours has none.
+
+use std::sync::Arc;
+
+use inroads_envs::Rng;
+use serde::{Deserialize, Serialize};
+
+use crate::nets::{ActorCritic, Backend, Shape, Step};
+use crate::noise::NoiseConfig;
+use crate::{Bag, Checkpoint, Clip, Context, Corrupt, Encoder, Learner, Memory};
+
+/// Settings of [`Ddpg`]. Defaults are those of the authors' code (`authors.md`, section 1), which are the DDPG
+/// paper's but for τ (0.001 there).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct DdpgConfig {
+    /// Widths of the hidden layers of actor and critic; 400 and 300 (authors' code, paper section 7).
+    pub hidden: Vec<usize>,
+    /// Adam's rate for the actor; 1e-4 (authors' code, paper).
+    pub actor_rate: f32,
+    /// Adam's rate for the critic; 1e-3 (authors' code, paper).
+    pub critic_rate: f32,
+    /// γ; 0.99 (authors' code, paper).
+    pub discount: f32,
+    /// τ of θ' ← τθ + (1−τ)θ'; 0.01 (authors' code).
+    pub tau: f32,
+    /// Clips an update; 64 (authors' code, paper).
+    pub batch: usize,
+    /// L2 decay of the critic's parameters, added to the gradient; 1e-2 (authors' code, paper).
+    pub critic_decay: f32,
+    /// Greatest norm of a network's gradient; 0 is no bound (authors' code and paper have none).
+    pub gradient_clip: f32,
+    /// Exploration noise.
+    pub noise: NoiseConfig,
+}
+
+impl Default for DdpgConfig {
+    fn default() -> Self {
+        Self {
+            hidden: vec![400, 300],
+            actor_rate: 1e-4,
+            critic_rate: 1e-3,
+            discount: 0.99,
+            tau: 0.01,
+            batch: 64,
+            critic_decay: 1e-2,
+            gradient_clip: 0.0,
+            noise: NoiseConfig::default(),
+        }
+    }
+}
+
+impl DdpgConfig {
+    /// What is wrong with these values, if anything.
+    ///
+    /// # Errors
+    /// A sentence that names the setting and the fix.
+    pub fn check(&self) -> Result<(), String> {
+        if self.hidden.is_empty() || self.hidden.contains(&0) {
+            return Err(format!("hidden is {:?}; name at least one layer, and none of width 0", self.hidden));
+        }
+        if self.batch == 0 {
+            return Err("batch is 0; an update needs at least one clip".into());
+        }
+        for (name, value) in [("actor_rate", self.actor_rate), ("critic_rate", self.critic_rate)] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(format!("{name} is {value}; it must be a number above 0"));
+            }
+        }
+        for (name, value) in [("discount", self.discount), ("tau", self.tau)] {
+            if !(0.0..=1.0).contains(&value) {
+                return Err(format!("{name} is {value}; it must lie in [0, 1]"));
+            }
+        }
+        for (name, value) in [("critic_decay", self.critic_decay), ("gradient_clip", self.gradient_clip)] {
+            if !(value.is_finite() && value >= 0.0) {
+                return Err(format!("{name} is {value}; it must be 0 (none) or a number above"));
+            }
+        }
+        self.noise.check()
+    }
+}
+
+/// A deterministic policy for continuous actions in [−1, 1], learned off-policy.
+///
+/// A clone has all that was learned, moments of the optimiser and number of updates included, and learns on
+/// independently: a new option begins as a clone of the global one (thesis 3.1.2).
+pub struct Ddpg<O> {
+    encoder: Arc<dyn Encoder<O> + Send + Sync>,
+    config: DdpgConfig,
+    nets: ActorCritic,
+    updates: u64,
+}
+
+impl<O> Ddpg<O> {
+    /// A learner for actions of that many components, with weights drawn from `rng`.
+    ///
+    /// # Panics
+    /// When there is no hidden layer, or one of width 0: see [`DdpgConfig::check`].
+    pub fn new(
+        encoder: Arc<dyn Encoder<O> + Send + Sync>,
+        actions: usize,
+        config: &DdpgConfig,
+        backend: Backend,
+        rng: &mut Rng,
+    ) -> Self {
+        let shape = Shape { inputs: encoder.width(), actions, hidden: &config.hidden };
+        Self { nets: ActorCritic::new(shape, backend, rng), encoder, config: config.clone(), updates: 0 }
+    }
+
+    /// Minibatch updates made so far.
+    pub fn updates(&self) -> u64 {
+        self.updates
+    }
+
+    fn encode<'a>(&self, observations: impl ExactSizeIterator<Item = &'a O>) -> Vec<f32>
+    where
+        O: 'a,
+    {
+        let width = self.encoder.width();
+        let mut rows = vec![0.0; width * observations.len()];
+        for (row, observation) in rows.chunks_exact_mut(width).zip(observations) {
+            self.encoder.write(observation, row);
+        }
+        rows
+    }
+}
+
+/// y = r + γ(1−d)·v, row by row.
+fn targets(rewards_and_ends: impl Iterator<Item = (f32, bool)>, next: &[f32], discount: f32) -> Vec<f32> {
+    rewards_and_ends
+        .zip(next)
+        .map(|((reward, terminal), value)| if terminal { reward } else { reward + discount * value })
+        .collect()
+}
+
+impl<O> Learner<O, Vec<f32>> for Ddpg<O> {
+    fn act(&self, memory: &mut Memory, s: &O, ctx: &mut Context) -> Vec<f32> {
+        let mut action = self.nets.act(self.encode(std::iter::once(s)));
+        if ctx.explore {
+            self.config.noise.perturb(&mut action, memory, self.updates, &mut ctx.acting);
+        }
+        action
+    }
+
+    fn learn(&mut self, clips: &[Clip<O, Vec<f32>>], _: &mut Context) -> f32 {
+        if clips.is_empty() {
+            return 0.0;
+        }
+        let config = &self.config;
+        let before = self.encode(clips.iter().map(|clip| &clip.observations[0]));
+        let after = self.encode(clips.iter().map(|clip| &clip.observations[1]));
+        let actions = clips.iter().flat_map(|clip| &clip.actions[0]).copied().collect();
+        let next = self.nets.target_values(after);
+        let targets = targets(clips.iter().map(|clip| (clip.reward, clip.terminal)), &next, config.discount);
+
+        let clip = config.gradient_clip;
+        let critic = Step { rate: config.critic_rate, decay: config.critic_decay, clip };
+        let actor = Step { rate: config.actor_rate, decay: 0.0, clip };
+        let loss = self.nets.learn(before, actions, targets, critic, actor);
+        self.nets.follow(config.tau);
+        self.updates += 1;
+        loss
+    }
+
+    fn batch(&self) -> usize {
+        self.config.batch
+    }
+}
+
+impl<O> Clone for Ddpg<O> {
+    fn clone(&self) -> Self {
+        Self {
+            encoder: Arc::clone(&self.encoder),
+            config: self.config.clone(),
+            nets: self.nets.clone(),
+            updates: self.updates,
+        }
+    }
+}
+
+impl<O> Checkpoint for Ddpg<O> {
+    fn save(&self, bag: &mut Bag) {
+        bag.put_part("nets", &self.nets);
+        bag.put("updates", &self.updates);
+    }
+
+    fn load(&mut self, bag: &Bag) -> Result<(), Corrupt> {
+        bag.get_part("nets", &mut self.nets)?;
+        self.updates = bag.get("updates")?;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use inroads_envs::Seed;
+    use rand::RngExt;
+
+    struct Row;
+
+    impl Encoder<Vec<f32>> for Row {
+        fn width(&self) -> usize {
+            2
+        }
+
+        fn write(&self, observation: &Vec<f32>, out: &mut [f32]) {
+            out.copy_from_slice(observation);
+        }
+    }
+
+    fn small() -> DdpgConfig {
+        DdpgConfig { hidden: vec![32, 24], actor_rate: 1e-3, critic_rate: 3e-3, ..Default::default() }
+    }
+
+    fn learner(config: &DdpgConfig) -> Ddpg<Vec<f32>> {
+        Ddpg::new(Arc::new(Row), 1, config, Backend::Flex, &mut Seed(3).stream("weights", 0))
+    }
+
+    fn saved(learner: &Ddpg<Vec<f32>>) -> Bag {
+        let mut bag = Bag::default();
+        learner.save(&mut bag);
+        bag
+    }
+
+    /// Update number `index` of a bandit: r = −(a − 0.3)², and the episode terminates.
+    fn bandit(learner: &mut Ddpg<Vec<f32>>, index: u64) -> f32 {
+        let mut ctx = Context::training(Seed(7), index);
+        let observations = [vec![0.2, -0.4], vec![0.1, 0.9]];
+        let actions: Vec<[Vec<f32>; 1]> =
+            (0..64).map(|_| [vec![ctx.learning.random_range(-1.0..1.0)]]).collect();
+        let clips: Vec<_> = actions
+            .iter()
+            .map(|action| Clip {
+                observations: &observations,
+                actions: action,
+                reward: -(action[0][0] - 0.3).powi(2),
+                terminal: true,
+            })
+            .collect();
+        learner.learn(&clips, &mut ctx)
+    }
+
+    fn greedy(learner: &Ddpg<Vec<f32>>) -> f32 {
+        learner.act(&mut Memory::new(), &vec![0.2, -0.4], &mut Context::evaluation(Seed(0), 0))[0]
+    }
+
+    #[test]
+    fn only_a_termination_cuts_the_target() {
+        // The third is a truncation, which a clip does not call terminal.
+        let clips = [(-1.0, false), (-1.0, true), (-1.0, false)];
+        let y = targets(clips.into_iter(), &[1.0, 1.0, 1.0], 0.99);
+        assert!((y[0] + 0.01).abs() < 1e-6 && y[1] == -1.0 && y[2] == y[0]);
+    }
+
+    #[test]
+    fn it_solves_a_bandit() {
+        // Decay of the critic (L2 within Adam) flattens so small a value and would leave the action near 0.2.
+        let mut learner = learner(&DdpgConfig { critic_decay: 0.0, ..small() });
+        let first = bandit(&mut learner, 0);
+        let last = (1..2000).map(|index| bandit(&mut learner, index)).last().unwrap();
+        assert!((greedy(&learner) - 0.3).abs() < 0.05, "{}", greedy(&learner));
+        assert!(last < first / 10.0, "{first} {last}");
+    }
+
+    #[test]
+    fn a_bootstrapped_value_approaches_its_fixed_point() {
+        // −1 a step for ever, γ = 0.5: the value is −2 everywhere, and a terminal step's is −1.
+        let mut learner = learner(&DdpgConfig { discount: 0.5, critic_decay: 0.0, tau: 0.05, ..small() });
+        let (going, ending) = ([vec![0.2, -0.4], vec![0.2, -0.4]], [vec![-0.9, 0.8], vec![0.2, -0.4]]);
+        let actions: Vec<[Vec<f32>; 1]> = (0..64).map(|i| [vec![i as f32 / 32.0 - 1.0]]).collect();
+        let clip = |i: usize| Clip {
+            observations: if i % 2 == 0 { &going } else { &ending },
+            actions: &actions[i],
+            reward: -1.0,
+            terminal: i % 2 == 1,
+        };
+        let clips: Vec<_> = (0..64).map(clip).collect();
+        let loss =
+            (0..1500).map(|i| learner.learn(&clips, &mut Context::training(Seed(0), i))).last().unwrap();
+        let values = learner.nets.target_values(vec![0.2, -0.4, -0.9, 0.8]);
+        assert!(loss < 1e-3, "{loss}");
+        assert!((values[0] + 2.0).abs() < 0.1 && (values[1] + 1.0).abs() < 0.1, "{values:?}");
+    }
+
+    #[test]
+    fn the_same_seed_gives_the_same_bits_and_a_saved_run_goes_on_as_if_never_stopped() {
+        let (mut one, mut two) = (learner(&small()), learner(&small()));
+        for index in 0..50 {
+            bandit(&mut one, index);
+            bandit(&mut two, index);
+        }
+        assert!(saved(&one) == saved(&two));
+        assert_eq!(one.updates(), 50);
+
+        let other_weights = &mut Seed(99).stream("weights", 0);
+        let mut resumed = Ddpg::new(Arc::new(Row), 1, &small(), Backend::Flex, other_weights);
+        assert!(saved(&resumed) != saved(&one));
+        resumed.load(&saved(&one)).unwrap();
+        for index in 50..60 {
+            bandit(&mut one, index);
+            bandit(&mut resumed, index);
+        }
+        assert!(saved(&resumed) == saved(&one));
+    }
+
+    #[test]
+    fn a_clone_goes_on_from_all_that_was_learned_and_on_its_own() {
+        let mut global = learner(&small());
+        (0..5).for_each(|index| _ = bandit(&mut global, index));
+        let before = saved(&global);
+        let mut option = global.clone();
+        assert!(saved(&option) == before);
+        bandit(&mut option, 5);
+        assert!(saved(&global) == before && saved(&option) != before);
+    }
+
+    #[test]
+    fn a_checkpoint_of_other_sizes_is_refused_and_named() {
+        let wide = learner(&DdpgConfig { hidden: vec![48, 24], ..small() });
+        let error = learner(&small()).load(&saved(&wide)).unwrap_err().to_string();
+        assert!(error.contains("actor") && error.contains("96"), "{error}");
+    }
+
+    #[test]
+    fn exploring_adds_noise_and_settings_are_checked() {
+        let learner = learner(&small());
+        let act = |ctx: &mut Context| learner.act(&mut Memory::new(), &vec![0.2, -0.4], ctx)[0];
+        assert!(greedy(&learner).abs() < 0.1, "actions begin near zero");
+        assert_ne!(act(&mut Context::training(Seed(0), 0)), greedy(&learner));
+
+        assert_eq!(DdpgConfig::default().check(), Ok(()));
+        let wrong = DdpgConfig { hidden: vec![], ..small() }.check().unwrap_err();
+        assert!(wrong.contains("hidden"));
+        assert!(serde_json::from_str::<DdpgConfig>("{\"taw\": 1}").unwrap_err().to_string().contains("taw"));
+    }
+
+    #[cfg(feature = "ndarray")]
+    #[test]
+    fn both_backends_learn_alike() {
+        let weights = || Seed(3).stream("weights", 0);
+        let mut flex = learner(&small());
+        let mut ndarray = Ddpg::new(Arc::new(Row), 1, &small(), Backend::NdArray, &mut weights());
+        for index in 0..20 {
+            let (a, b) = (bandit(&mut flex, index), bandit(&mut ndarray, index));
+            assert!((a - b).abs() < 1e-4 * (1.0 + a.abs()), "update {index}: {a} {b}");
+        }
+        assert!((greedy(&flex) - greedy(&ndarray)).abs() < 1e-3);
+    }
+}

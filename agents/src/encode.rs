@@ -1,0 +1,121 @@
+//! From observations to rows of numbers that networks read.
+
+use inroads_envs::{Kind, Space};
+
+/// Writes observations as rows: the one bridge from a domain's kind to tensors.
+pub trait Encoder<O> {
+    /// Numbers a row.
+    fn width(&self) -> usize;
+
+    /// Writes one row; `out` has [`width`](Self::width) elements.
+    fn write(&self, observation: &O, out: &mut [f32]);
+}
+
+/// Vectors scaled to about [−1, 1] by the usual range of each dimension; an angle becomes its sine and cosine,
+/// so that a heading of 2π is the heading 0.
+///
+/// The authors feed raw states. This is what `Spec` makes free, and every agent of the project gets the same.
+#[derive(Clone, Debug)]
+pub struct Scaled {
+    columns: Vec<Column>,
+    width: usize,
+}
+
+#[derive(Clone, Debug)]
+enum Column {
+    /// `(x − centre) × scale`.
+    Linear {
+        centre: f32,
+        scale: f32,
+    },
+    Angle,
+}
+
+impl Scaled {
+    /// The encoder for a space of vectors. A dimension without finite bounds is passed on as it is.
+    pub fn new(space: &Space) -> Self {
+        let columns: Vec<_> = space
+            .dimensions()
+            .iter()
+            .map(|d| match d.kind {
+                Kind::Angle => Column::Angle,
+                Kind::Linear if d.low.is_finite() && d.high > d.low && d.high.is_finite() => {
+                    Column::Linear { centre: f32::midpoint(d.low, d.high), scale: 2.0 / (d.high - d.low) }
+                }
+                Kind::Linear => Column::Linear { centre: 0.0, scale: 1.0 },
+            })
+            .collect();
+        let width = columns.iter().map(|c| if matches!(c, Column::Angle) { 2 } else { 1 }).sum();
+        Self { columns, width }
+    }
+}
+
+impl Encoder<Vec<f32>> for Scaled {
+    fn width(&self) -> usize {
+        self.width
+    }
+
+    fn write(&self, observation: &Vec<f32>, out: &mut [f32]) {
+        let mut out = out.iter_mut();
+        let mut put = |value| {
+            if let Some(slot) = out.next() {
+                *slot = value;
+            }
+        };
+        for (column, &x) in self.columns.iter().zip(observation) {
+            match column {
+                Column::Linear { centre, scale } => put((x - centre) * scale),
+                Column::Angle => {
+                    put(x.sin());
+                    put(x.cos());
+                }
+            }
+        }
+    }
+}
+
+/// Some components of a vector, as they are: what a set of places is learned on.
+#[derive(Clone, Debug)]
+pub struct Select {
+    dims: Vec<usize>,
+}
+
+impl Select {
+    /// The encoder for the components of these indices.
+    pub fn new(dims: &[usize]) -> Self {
+        Self { dims: dims.to_vec() }
+    }
+}
+
+impl Encoder<Vec<f32>> for Select {
+    fn width(&self) -> usize {
+        self.dims.len()
+    }
+
+    fn write(&self, observation: &Vec<f32>, out: &mut [f32]) {
+        for (slot, &dim) in out.iter_mut().zip(&self.dims) {
+            *slot = observation[dim];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use inroads_envs::Dimension;
+
+    #[test]
+    fn ranges_become_unit_ranges_and_angles_become_points_on_a_circle() {
+        let space = Space::Box(vec![
+            Dimension::linear("x", "m", -2.0, 10.0),
+            Dimension::angle("heading"),
+            Dimension::linear("v", "m/s", f32::NEG_INFINITY, f32::INFINITY),
+        ]);
+        let encoder = Scaled::new(&space);
+        let mut row = vec![0.0; encoder.width()];
+        encoder.write(&vec![10.0, std::f32::consts::FRAC_PI_2, 7.0], &mut row);
+        assert_eq!(row.len(), 4);
+        assert_eq!((row[0], row[1], row[3]), (1.0, 1.0, 7.0));
+        assert!(row[2].abs() < 1e-6);
+    }
+}

@@ -1,0 +1,110 @@
+//! Learners with no notion of options: replay, networks on Burn, DDPG, double DQN, support vector machines.
+//!
+//! Burn stands in this room only, and is compiled once: rows of numbers in, rows of numbers out.
+
+pub mod checkpoint;
+pub mod classify;
+pub mod ddpg;
+pub mod dqn;
+pub mod encode;
+pub mod episode;
+pub mod experience;
+pub mod flat;
+pub mod nets;
+pub mod noise;
+pub mod svm;
+pub mod tabular;
+
+pub use checkpoint::{Bag, Checkpoint, Corrupt};
+pub use encode::Encoder;
+pub use episode::{Summary, episode};
+pub use experience::{Clip, Experience, Lesson, Replay};
+pub use flat::Flat;
+pub use tabular::TabularQ;
+
+use inroads_envs::{End, Rng, Seed};
+
+/// What lasts one episode of one actor beside its observation: a recurrent state, correlated noise. A plain
+/// type, so that learners stay storable and usable as `dyn`.
+pub type Memory = Vec<f32>;
+
+/// What surrounds one call of an agent: who asks, when, and the random streams of this episode.
+#[derive(Debug)]
+pub struct Context {
+    /// Whether exploration noise is added.
+    pub explore: bool,
+    /// Stream for choices of action.
+    pub acting: Rng,
+    /// Stream for learning: minibatches, initial weights.
+    pub learning: Rng,
+}
+
+impl Context {
+    /// The context of training episode number `index`.
+    pub fn training(seed: Seed, index: u64) -> Self {
+        Self { explore: true, acting: seed.stream("act", index), learning: seed.stream("learn", index) }
+    }
+
+    /// The context of evaluation episode number `index`: no exploration.
+    pub fn evaluation(seed: Seed, index: u64) -> Self {
+        Self {
+            explore: false,
+            acting: seed.stream("evaluate-act", index),
+            learning: seed.stream("evaluate-learn", index),
+        }
+    }
+}
+
+/// One step of an episode, all borrowed.
+#[derive(Debug)]
+pub struct Transition<'a, O, A> {
+    /// Where it was.
+    pub before: &'a O,
+    /// What was done.
+    pub action: &'a A,
+    /// What it earned.
+    pub reward: f32,
+    /// Where it led.
+    pub after: &'a O,
+    /// Whether and how the episode ended there.
+    pub end: Option<End>,
+}
+
+/// What the episode loop needs of whoever acts.
+pub trait Actor<O, A> {
+    /// An episode begins at `s`.
+    fn begin(&mut self, s: &O, ctx: &mut Context);
+
+    /// The action to take at `s`.
+    fn act(&mut self, s: &O, ctx: &mut Context) -> A;
+
+    /// What came of the last action.
+    fn observe(&mut self, t: &Transition<O, A>, ctx: &mut Context);
+
+    /// Which part of the agent chose the last action (a skill's number, say); 0 where there are no parts.
+    fn source(&self) -> usize {
+        0
+    }
+}
+
+/// An actor that learns, can be saved between episodes, and can be watched without changing.
+pub trait Agent<O, A>: Actor<O, A> + Checkpoint {
+    /// The agent as it is now, acting without learning. It borrows the agent, so that an evaluation *cannot*
+    /// change it.
+    fn frozen(&self) -> Box<dyn Actor<O, A> + '_>;
+
+    /// Learning steps (minibatch updates) made so far, by name of the network.
+    fn updates(&self) -> Vec<(&'static str, u64)>;
+}
+
+/// Learns a policy from clips of experience.
+pub trait Learner<O, A>: Checkpoint {
+    /// The action at `s`, with exploration noise when `ctx.explore`.
+    fn act(&self, memory: &mut Memory, s: &O, ctx: &mut Context) -> A;
+
+    /// One minibatch update on these clips; the loss.
+    fn learn(&mut self, clips: &[Clip<O, A>], ctx: &mut Context) -> f32;
+
+    /// How many clips `learn` wants.
+    fn batch(&self) -> usize;
+}

@@ -1,0 +1,120 @@
+//! Adam (Kingma and Ba 2015) in one pass over each parameter.
+//!
+//! Burn's Adam makes about ten passes and clips each parameter by itself; this one makes one, clips by the norm
+//! of the whole gradient, and keeps its moments as plain numbers in the order in which the module lists its
+//! parameters, so that they can be saved and survive the growing of a network.
+
+use std::mem::take;
+
+use burn::module::{Module, ModuleMapper, ModuleVisitor, Param};
+use burn::optim::GradientsParams;
+use burn::tensor::Tensor;
+use serde::{Deserialize, Serialize};
+
+use super::floats;
+
+/// Decay of the mean of gradients; the paper's value, and PyTorch's.
+const BETA1: f32 = 0.9;
+/// Decay of the mean of squared gradients; the paper's value, and PyTorch's.
+const BETA2: f32 = 0.999;
+/// Added to the root; the paper's value, and PyTorch's (Burn's default is 1e-5).
+const EPSILON: f32 = 1e-8;
+/// Moments below this are taken for zero. The moments of a dead unit decay for ever, and arithmetic on
+/// denormal numbers is up to a hundred times slower; at this size none can move a parameter any more.
+const NOTHING: f32 = 1e-30;
+
+/// Adam's settings.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Step {
+    pub(crate) rate: f32,
+    /// Added to the gradient, times the parameter (L2, as PyTorch's `weight_decay`).
+    pub(crate) decay: f32,
+    /// Greatest norm of the whole gradient; 0 for any.
+    pub(crate) clip: f32,
+}
+
+/// Adam's state for one network.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Adam {
+    steps: u64,
+    /// Means of gradients and of their squares, one pair a parameter, in the module's order.
+    moments: Vec<(Vec<f32>, Vec<f32>)>,
+}
+
+impl Adam {
+    /// One step of the module down these gradients.
+    pub(crate) fn step<M: Module + Default>(&mut self, step: Step, module: &mut M, grads: GradientsParams) {
+        self.steps += 1;
+        let scale = if step.clip > 0.0 {
+            let mut norm = SquaredNorm { grads: &grads, sum: 0.0 };
+            module.visit(&mut norm);
+            (step.clip / norm.sum.sqrt().max(f32::MIN_POSITIVE)).min(1.0)
+        } else {
+            1.0
+        };
+        // Bias corrections, folded into the rate and epsilon as the paper's section 2 suggests.
+        let t = self.steps as f64;
+        let first = 1.0 - f64::from(BETA1).powf(t);
+        let second = (1.0 - f64::from(BETA2).powf(t)).sqrt();
+        let mut update = Update {
+            moments: &mut self.moments,
+            index: 0,
+            grads,
+            scale,
+            decay: step.decay,
+            rate: (f64::from(step.rate) * second / first) as f32,
+            epsilon: (f64::from(EPSILON) * second) as f32,
+        };
+        *module = take(module).map(&mut update);
+    }
+}
+
+struct SquaredNorm<'a> {
+    grads: &'a GradientsParams,
+    sum: f32,
+}
+
+impl ModuleVisitor for SquaredNorm<'_> {
+    fn visit_float<const D: usize>(&mut self, param: &Param<Tensor<D>>) {
+        if let Some(grad) = self.grads.get::<D>(param.id) {
+            self.sum += floats(grad).iter().map(|g| g * g).sum::<f32>();
+        }
+    }
+}
+
+struct Update<'a> {
+    moments: &'a mut Vec<(Vec<f32>, Vec<f32>)>,
+    index: usize,
+    grads: GradientsParams,
+    scale: f32,
+    decay: f32,
+    rate: f32,
+    epsilon: f32,
+}
+
+impl ModuleMapper for Update<'_> {
+    fn map_float<const D: usize>(&mut self, param: Param<Tensor<D>>) -> Param<Tensor<D>> {
+        let Some(grad) = self.grads.remove::<D>(param.id).map(floats) else {
+            self.index += 1;
+            return param;
+        };
+        if self.moments.len() <= self.index {
+            self.moments.resize_with(self.index + 1, Default::default);
+        }
+        let (first, second) = &mut self.moments[self.index];
+        first.resize(grad.len(), 0.0);
+        second.resize(grad.len(), 0.0);
+        self.index += 1;
+        let Self { scale, decay, rate, epsilon, .. } = *self;
+        super::edit(param, |values| {
+            for (((p, g), m), v) in values.iter_mut().zip(&grad).zip(first).zip(second) {
+                let g = g * scale + decay * *p;
+                let mean = BETA1 * *m + (1.0 - BETA1) * g;
+                let square = BETA2 * *v + (1.0 - BETA2) * g * g;
+                *m = if mean.abs() < NOTHING { 0.0 } else { mean };
+                *v = if square < NOTHING { 0.0 } else { square };
+                *p -= rate * *m / (v.sqrt() + epsilon);
+            }
+        })
+    }
+}

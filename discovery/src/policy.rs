@@ -1,0 +1,120 @@
+//! Option policies (3.1.1).
+
+use inroads_agents::{
+    Bag, Checkpoint, Clip, Context, Corrupt, Experience, Learner, Lesson, Memory, Replay, flat::Pace,
+};
+
+use crate::SkillId;
+
+/// A family of option policies.
+pub trait SkillPolicy<O, A>: Checkpoint {
+    /// A new skill `k` begins with a copy of the global option's policy (3.1.2).
+    fn born(&mut self, k: SkillId);
+
+    /// Skill `k`'s action at `s`.
+    fn act(&self, k: SkillId, memory: &mut Memory, s: &O, ctx: &mut Context) -> A;
+
+    /// Something for skill `k` to learn from.
+    fn lesson(&mut self, k: SkillId, lesson: Lesson);
+
+    /// Minibatch updates of skill `k`'s policy; none while it has too few lessons.
+    fn practise(&mut self, k: SkillId, updates: u64, all: &Experience<O, A>, ctx: &mut Context);
+
+    /// The updates that one more step of skill `k` makes due.
+    fn step(&mut self, k: SkillId, all: &Experience<O, A>, ctx: &mut Context);
+
+    /// Updates made so far, over all skills.
+    fn updates(&self) -> u64;
+}
+
+/// A learner of its own for every skill, as chapter 3 has it.
+pub struct PerSkill<L> {
+    members: Vec<Member<L>>,
+    blank: L,
+    pace: Pace,
+    capacity: usize,
+}
+
+struct Member<L> {
+    learner: L,
+    replay: Replay,
+    steps: u64,
+    updates: u64,
+}
+
+impl<L: Clone> PerSkill<L> {
+    /// A family with the global option's policy only. Each skill remembers about `capacity` steps of lessons.
+    pub fn new(global: L, capacity: usize, pace: Pace) -> Self {
+        let blank = global.clone();
+        let member = Member { learner: global, replay: Replay::new(capacity), steps: 0, updates: 0 };
+        Self { members: vec![member], blank, pace, capacity }
+    }
+}
+
+impl<O, A, L: Learner<O, A> + Clone> SkillPolicy<O, A> for PerSkill<L>
+where
+    Self: Checkpoint,
+{
+    fn born(&mut self, k: SkillId) {
+        assert_eq!(k.index(), self.members.len(), "skills are born in the order of their numbers");
+        let learner = self.members[0].learner.clone();
+        self.members.push(Member { learner, replay: Replay::new(self.capacity), steps: 0, updates: 0 });
+    }
+
+    fn act(&self, k: SkillId, memory: &mut Memory, s: &O, ctx: &mut Context) -> A {
+        self.members[k.index()].learner.act(memory, s, ctx)
+    }
+
+    fn lesson(&mut self, k: SkillId, lesson: Lesson) {
+        self.members[k.index()].replay.push(lesson);
+    }
+
+    fn practise(&mut self, k: SkillId, updates: u64, all: &Experience<O, A>, ctx: &mut Context) {
+        let member = &mut self.members[k.index()];
+        member.replay.forget_before(all.first());
+        let batch = member.learner.batch();
+        if updates == 0 || member.replay.len() < self.pace.warm_up.max(batch) {
+            return;
+        }
+        let mut clips: Vec<Clip<O, A>> = Vec::with_capacity(batch);
+        for _ in 0..updates {
+            member.replay.sample(all, batch, &mut ctx.learning, &mut clips);
+            member.learner.learn(&clips, ctx);
+            member.updates += 1;
+        }
+    }
+
+    fn step(&mut self, k: SkillId, all: &Experience<O, A>, ctx: &mut Context) {
+        let member = &mut self.members[k.index()];
+        member.steps += 1;
+        let due = self.pace.due(member.steps);
+        self.practise(k, due, all, ctx);
+    }
+
+    fn updates(&self) -> u64 {
+        self.members.iter().map(|m| m.updates).sum()
+    }
+}
+
+impl<L: Checkpoint + Clone> Checkpoint for PerSkill<L> {
+    fn save(&self, bag: &mut Bag) {
+        bag.put("members", &self.members.len());
+        for (i, member) in self.members.iter().enumerate() {
+            bag.put_part(&format!("{i}.learner"), &member.learner);
+            bag.put(&format!("{i}.replay"), &member.replay);
+            bag.put(&format!("{i}.counts"), &(member.steps, member.updates));
+        }
+    }
+
+    fn load(&mut self, bag: &Bag) -> Result<(), Corrupt> {
+        self.members.clear();
+        for i in 0..bag.get::<usize>("members")? {
+            let mut learner = self.blank.clone();
+            bag.get_part(&format!("{i}.learner"), &mut learner)?;
+            let replay = bag.get(&format!("{i}.replay"))?;
+            let (steps, updates) = bag.get(&format!("{i}.counts"))?;
+            self.members.push(Member { learner, replay, steps, updates });
+        }
+        Ok(())
+    }
+}

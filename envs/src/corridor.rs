@@ -1,0 +1,92 @@
+//! A row of cells, small enough for every value to be known by hand.
+
+use crate::{Dimension, End, Environment, Goal, Refused, Space, Spec, Step};
+
+/// `n` cells in a row: 0 steps left, 1 steps right, from the first cell to the last; the ends stop one.
+///
+/// A step costs 1 and the one that arrives costs nothing, so that the undiscounted value of cell `i` is
+/// `-(n - 2 - i)`.
+#[derive(Clone, Debug)]
+pub struct Corridor {
+    spec: Spec,
+    last: usize,
+    at: usize,
+    over: bool,
+}
+
+impl Corridor {
+    /// A corridor of `n` cells, at least two.
+    pub fn new(n: usize) -> Self {
+        Self::named("corridor", n)
+    }
+
+    /// The same under a registry's name.
+    pub fn named(name: &'static str, n: usize) -> Self {
+        let last = n.max(2) - 1;
+        let spec = Spec {
+            name,
+            about: "a row of cells, walked from one end to the other; -1 a step",
+            observation: Space::Box(vec![Dimension::linear("cell", "", 0.0, last as f32)]),
+            action: Space::Discrete(2),
+            goal: Some(Goal { dims: vec![0], at: vec![last as f32], tolerance: 0.25 }),
+            place: vec![0],
+            time_limit: None,
+            success_reward: 0.0,
+        };
+        Self { spec, last, at: 0, over: true }
+    }
+}
+
+impl Environment for Corridor {
+    type Observation = Vec<f32>;
+    type Action = usize;
+
+    fn spec(&self) -> &Spec {
+        &self.spec
+    }
+
+    fn reset(&mut self, _seed: u64) {
+        self.at = 0;
+        self.over = false;
+    }
+
+    fn step(&mut self, action: &usize) -> Result<Step, Refused> {
+        if self.over {
+            return Err(Refused::Over);
+        }
+        self.spec.action.admit_choice(*action)?;
+        self.at = if *action == 1 { self.at + 1 } else { self.at.saturating_sub(1) };
+        self.over = self.at == self.last;
+        Ok(match self.over {
+            true => Step { reward: 0.0, end: Some(End::Terminated) },
+            false => Step { reward: -1.0, end: None },
+        })
+    }
+
+    fn observe(&self, out: &mut Vec<f32>) {
+        out.clear();
+        out.push(self.at as f32);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_way_right_costs_three_in_five_cells() {
+        let mut corridor = Corridor::new(5);
+        corridor.reset(0);
+        let steps: Vec<_> = [0, 1, 1, 1, 1].iter().map(|action| corridor.step(action).unwrap()).collect();
+        assert_eq!(
+            steps.iter().map(|step| step.reward).sum::<f32>(),
+            -4.0,
+            "the first step ran into the end"
+        );
+        assert!(corridor.spec().succeeded(&steps[4]));
+        let mut seen = Vec::new();
+        corridor.observe(&mut seen);
+        assert!(corridor.spec().goal.as_ref().unwrap().reached(&seen));
+        assert_eq!(corridor.step(&1), Err(Refused::Over));
+    }
+}

@@ -1,0 +1,58 @@
+//! The only place of truncation: a wrapper that ends an episode after a number of steps.
+
+use crate::{End, Environment, Refused, Spec, Step};
+
+/// Truncates the episodes of `E` after a number of steps.
+#[derive(Clone, Debug)]
+pub struct TimeLimit<E> {
+    inner: E,
+    spec: Spec,
+    limit: u32,
+    taken: u32,
+    over: bool,
+}
+
+impl<E: Environment> TimeLimit<E> {
+    /// Wraps an environment. The limit stands in the wrapper's [`Spec::time_limit`].
+    pub fn new(inner: E, limit: u32) -> Self {
+        let spec = Spec { time_limit: Some(limit), ..inner.spec().clone() };
+        Self { inner, spec, limit, taken: 0, over: true }
+    }
+
+    /// The environment inside.
+    pub fn inner(&self) -> &E {
+        &self.inner
+    }
+}
+
+impl<E: Environment> Environment for TimeLimit<E> {
+    type Observation = E::Observation;
+    type Action = E::Action;
+
+    fn spec(&self) -> &Spec {
+        &self.spec
+    }
+
+    fn reset(&mut self, seed: u64) {
+        self.inner.reset(seed);
+        self.taken = 0;
+        self.over = false;
+    }
+
+    fn step(&mut self, action: &Self::Action) -> Result<Step, Refused> {
+        if self.over {
+            return Err(Refused::Over);
+        }
+        let mut step = self.inner.step(action)?;
+        self.taken += 1;
+        if step.end.is_none() && self.taken >= self.limit {
+            step.end = Some(End::Truncated);
+        }
+        self.over = step.end.is_some();
+        Ok(step)
+    }
+
+    fn observe(&self, out: &mut Self::Observation) {
+        self.inner.observe(out);
+    }
+}

@@ -1,0 +1,5 @@
+//! Bodies, walls and pixels: the simulators of Inroads.
+//!
+//! This room knows geometry and physics, and nothing of rewards, episodes or tensors.
+
+pub mod rigid;

@@ -1,0 +1,91 @@
+//! The command line. Arguments are parsed here; each command is a file.
+
+mod evaluate;
+mod list;
+mod plot;
+mod progress;
+mod render;
+mod train;
+
+use std::{path::PathBuf, process::ExitCode};
+
+use clap::{Parser, Subcommand};
+
+use crate::run::RunError;
+
+/// Skill discovery in pure Rust: train agents, look at the skills they find.
+#[derive(Debug, Parser)]
+#[command(name = "inroads", version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Show the agents and environments that there are
+    List,
+    /// Train an agent in an environment, then draw what it learned
+    Train(train::Arguments),
+    /// Evaluate a run's agent, frozen and without noise
+    Evaluate {
+        /// A run's folder
+        run: PathBuf,
+        /// Episodes (default: as the run's configuration has it)
+        #[arg(long)]
+        episodes: Option<u64>,
+        /// Look at this checkpoint instead of the newest
+        #[arg(long)]
+        checkpoint: Option<PathBuf>,
+    },
+    /// Draw the figures of one run, or the learning curves of several together
+    Plot {
+        /// Runs' folders
+        #[arg(required = true)]
+        runs: Vec<PathBuf>,
+        /// Where to draw several runs' curves
+        #[arg(long, default_value = "curves.png")]
+        out: PathBuf,
+    },
+    /// Draw one frozen episode of a run as a GIF
+    Render {
+        /// A run's folder
+        run: PathBuf,
+        /// Which evaluation episode
+        #[arg(long, default_value_t = 0)]
+        episode: u64,
+        /// Where to draw it (default: figures/episode-N.gif in the run's folder)
+        #[arg(long)]
+        out: Option<PathBuf>,
+        /// Use learned skills alone wherever one may start
+        #[arg(long)]
+        chain_alone: bool,
+    },
+}
+
+/// Runs the command line: exit code 0, or 2 when something was wrong and nothing was overwritten.
+pub fn main() -> ExitCode {
+    let done = match Arguments::parse().command {
+        Command::List => {
+            list::list();
+            Ok(())
+        }
+        Command::Train(arguments) => train::train(&arguments),
+        Command::Evaluate { run, episodes, checkpoint } => {
+            evaluate::evaluate(&run, episodes, checkpoint.as_deref())
+        }
+        Command::Plot { runs, out } => plot::plot(&runs, &out),
+        Command::Render { run, episode, out, chain_alone } => {
+            render::render(&run, episode, out.as_deref(), chain_alone)
+        }
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("inroads: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+type Done = Result<(), RunError>;

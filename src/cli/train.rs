@@ -1,0 +1,126 @@
+//! `inroads train`.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+};
+
+use super::{Done, evaluate::report, progress::Progress};
+use crate::{
+    config::{Config, ConfigError},
+    draw,
+    run::{Ended, Run},
+};
+
+/// What `inroads train` takes.
+#[derive(Debug, clap::Args)]
+pub(super) struct Arguments {
+    /// The agent (see `inroads list`)
+    agent: String,
+    /// The environment (see `inroads list`)
+    environment: String,
+    /// The seed from which all random numbers of the run come
+    #[arg(long)]
+    seed: Option<u64>,
+    /// The backend of Burn: flex or ndarray
+    #[arg(long)]
+    backend: Option<String>,
+    /// The run's folder (default: runs/AGENT-ENVIRONMENT-SEED)
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Go on from the newest checkpoint of the run's folder
+    #[arg(long)]
+    resume: bool,
+    /// With --resume: go on from this checkpoint instead
+    #[arg(long, requires = "resume")]
+    checkpoint: Option<PathBuf>,
+    /// Read settings from a TOML file
+    #[arg(long, conflicts_with = "resume")]
+    config: Option<PathBuf>,
+    /// Set one value, such as `chain.gestation=3` (may be given again)
+    #[arg(long = "set", value_name = "KEY=VALUE", conflicts_with = "resume")]
+    set: Vec<String>,
+}
+
+pub(super) fn train(arguments: &Arguments) -> Done {
+    let config = configure(arguments)?;
+    let settings = &config.settings;
+    let default = || format!("runs/{}-{}-{}", settings.agent, settings.environment, settings.seed).into();
+    let path = arguments.out.clone().unwrap_or_else(default);
+    let mut run = if arguments.resume {
+        let run = Run::resume(&path, arguments.checkpoint.as_deref())?;
+        agree(arguments, &run.config)?;
+        run
+    } else {
+        Run::create(config, &path)?
+    };
+    let (episodes, steps) = run.session.progress();
+    if arguments.resume {
+        eprintln!("resumed {} after {episodes} episodes ({steps} steps)", path.display());
+    }
+
+    let stop = Arc::new(AtomicBool::new(false));
+    let asked = Arc::clone(&stop);
+    // Without a handler Ctrl-C ends the process, and the newest checkpoint stands: no reason not to train.
+    let _handled = ctrlc::set_handler(move || asked.store(true, Ordering::Relaxed));
+    let mut progress = Progress::new(&run.config.settings, episodes);
+    let ended = run.train(&stop, |metrics| progress.show(metrics))?;
+    progress.finish();
+    match ended {
+        Ended::Interrupted => {
+            eprintln!("stopped and saved; go on with\n  {}", resume_command(&run, &path));
+            Ok(())
+        }
+        Ended::Complete => {
+            let (summary, frozen) = run.summarise()?;
+            report(&summary);
+            draw::figures(&run, &frozen)?;
+            eprintln!("figures are in {}", run.folder.figures().display());
+            Ok(())
+        }
+    }
+}
+
+fn configure(arguments: &Arguments) -> Result<Config, ConfigError> {
+    let mut config = Config::defaults(&arguments.agent, &arguments.environment)?;
+    if let Some(file) = &arguments.config {
+        config = config.with_file(file)?;
+    }
+    for assignment in &arguments.set {
+        config = config.with_assignment(assignment)?;
+    }
+    if let Some(seed) = arguments.seed {
+        config.settings.seed = seed;
+    }
+    if let Some(backend) = &arguments.backend {
+        config = config.with_assignment(&format!("backend=\"{backend}\""))?;
+    }
+    Ok(config)
+}
+
+/// A run goes on as it was begun: what is asked of it must not differ.
+fn agree(arguments: &Arguments, config: &Config) -> Result<(), ConfigError> {
+    let settings = &config.settings;
+    let asked = [
+        ("agent", Some(arguments.agent.clone()), settings.agent.clone()),
+        ("environment", Some(arguments.environment.clone()), settings.environment.clone()),
+        ("seed", arguments.seed.map(|seed| seed.to_string()), settings.seed.to_string()),
+        ("backend", arguments.backend.clone(), settings.backend.to_string()),
+    ];
+    for (name, asked, is) in asked {
+        if asked.as_ref().is_some_and(|asked| *asked != is) {
+            let asked = asked.unwrap_or_default();
+            let why = format!("the run has {name} `{is}`, not `{asked}`; leave it out, or begin another run");
+            return Err(ConfigError::Impossible { table: "the resumed run".into(), why });
+        }
+    }
+    Ok(())
+}
+
+fn resume_command(run: &Run, path: &Path) -> String {
+    let settings = &run.config.settings;
+    format!("inroads train {} {} --out {} --resume", settings.agent, settings.environment, path.display())
+}

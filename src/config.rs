@@ -1,0 +1,242 @@
+//! The configuration of a run: one TOML table in which every value stands, defaults included.
+//!
+//! A run's settings stand at the top level, its agent's in tables below. The defaults of the agent say which keys
+//! there are and what type each has, so an unknown key or a wrong type is named before anything is built.
+
+use std::{fs, path::Path};
+
+use inroads_agents::nets::Backend;
+use inroads_envs::registry::nearest;
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use toml::{Table, Value};
+
+use crate::assembly;
+
+/// What is wrong with a configuration.
+#[derive(Debug, thiserror::Error)]
+pub enum ConfigError {
+    /// A file cannot be read.
+    #[error("cannot read the configuration {path}: {why}")]
+    Unreadable {
+        /// The file.
+        path: String,
+        /// What the system says.
+        why: String,
+    },
+    /// A file is not TOML.
+    #[error("{path} is not valid TOML: {why}")]
+    Malformed {
+        /// The file.
+        path: String,
+        /// What and where.
+        why: String,
+    },
+    /// A key that no setting has.
+    #[error("there is no setting `{key}`; did you mean `{nearest}`?")]
+    UnknownKey {
+        /// The key, from the top.
+        key: String,
+        /// The setting whose name is nearest.
+        nearest: String,
+    },
+    /// A value of another type than the setting's.
+    #[error("`{key}` is {found}, but must be {expected} (its default is {default})")]
+    WrongType {
+        /// The key, from the top.
+        key: String,
+        /// The type that was found.
+        found: &'static str,
+        /// The type of the setting.
+        expected: &'static str,
+        /// The setting's default.
+        default: String,
+    },
+    /// A count below zero.
+    #[error("`{key}` is {value}; it counts something, so it must be 0 or above")]
+    Negative {
+        /// The key, from the top.
+        key: String,
+        /// The value.
+        value: i64,
+    },
+    /// A value that the setting cannot have.
+    #[error("in `{table}`: {why}")]
+    Impossible {
+        /// The table.
+        table: String,
+        /// What is wrong and how to mend it.
+        why: String,
+    },
+    /// An argument of `--set` without a value.
+    #[error("`--set {0}` has no value; write `--set key=value`")]
+    NoValue(String),
+    /// A name that is in no registry.
+    #[error("{0}")]
+    UnknownName(String),
+}
+
+/// The settings that every run has, whatever its agent.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Settings {
+    /// The agent's name in the registry.
+    pub agent: String,
+    /// The environment's name in the registry.
+    pub environment: String,
+    /// The seed from which every random stream of the run comes.
+    pub seed: u64,
+    /// The backend of Burn.
+    pub backend: Backend,
+    /// Training episodes.
+    pub episodes: u64,
+    /// Training ends after the episode that reaches this many steps of the environment; 0: no such bound.
+    pub max_steps: u64,
+    /// Frozen, noise-free episodes after training.
+    pub evaluation_episodes: u64,
+    /// A checkpoint is written every so many episodes.
+    pub checkpoint_every: u64,
+}
+
+/// A whole configuration, checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Config {
+    /// The run's settings.
+    pub settings: Settings,
+    /// The agent's tables.
+    pub agent: Table,
+}
+
+impl Config {
+    /// The defaults of an agent in an environment.
+    ///
+    /// # Errors
+    /// [`ConfigError::UnknownName`] with the nearest name.
+    pub fn defaults(agent: &str, environment: &str) -> Result<Self, ConfigError> {
+        let entry = assembly::agent(agent)?;
+        let settings = Settings {
+            agent: agent.to_owned(),
+            environment: environment.to_owned(),
+            seed: 0,
+            backend: Backend::default(),
+            episodes: 300,
+            max_steps: 0,
+            evaluation_episodes: 20,
+            checkpoint_every: 25,
+        };
+        Ok(Self { settings, agent: (entry.defaults)() })
+    }
+
+    /// The same with a file's values in the place of its own.
+    ///
+    /// # Errors
+    /// [`ConfigError`] names the file, or the key and the mend.
+    pub fn with_file(self, path: &Path) -> Result<Self, ConfigError> {
+        self.overlaid(&read(path)?)
+    }
+
+    /// The same with one value in the place of its own: `key=value`, the key dotted, the value TOML or a word.
+    ///
+    /// # Errors
+    /// [`ConfigError`] names the key and the mend.
+    pub fn with_assignment(self, assignment: &str) -> Result<Self, ConfigError> {
+        let (key, value) =
+            assignment.split_once('=').ok_or_else(|| ConfigError::NoValue(assignment.to_owned()))?;
+        let value = format!("v = {value}")
+            .parse::<Table>()
+            .ok()
+            .and_then(|mut table| table.remove("v"))
+            .unwrap_or_else(|| Value::String(value.to_owned()));
+        let over = key
+            .trim()
+            .rsplit('.')
+            .fold(value, |value, part| Value::Table(Table::from_iter([(part.to_owned(), value)])));
+        match over {
+            Value::Table(over) => self.overlaid(&over),
+            _ => Err(ConfigError::NoValue(assignment.to_owned())),
+        }
+    }
+
+    /// Reads a whole configuration, as a run folder has it.
+    ///
+    /// # Errors
+    /// [`ConfigError`] names the file, or the key and the mend.
+    pub fn read(path: &Path) -> Result<Self, ConfigError> {
+        let table = read(path)?;
+        let name = |key: &str| table.get(key).and_then(Value::as_str).unwrap_or_default();
+        Self::defaults(name("agent"), name("environment"))?.overlaid(&table)
+    }
+
+    /// Every value, as TOML.
+    pub fn to_toml(&self) -> String {
+        toml::to_string(&self.table()).expect("a table of plain values is always TOML")
+    }
+
+    fn table(&self) -> Table {
+        let mut table = Table::try_from(&self.settings).expect("settings are plain values");
+        table.extend(self.agent.clone());
+        table
+    }
+
+    fn overlaid(self, over: &Table) -> Result<Self, ConfigError> {
+        let mut table = self.table();
+        overlay(&mut table, over, "")?;
+        let (settings, agent) =
+            table.into_iter().partition::<Table, _>(|(key, _)| !self.agent.contains_key(key));
+        let settings: Settings = section(settings, "the run's settings")?;
+        if settings.checkpoint_every == 0 || settings.episodes == 0 {
+            let why = "episodes and checkpoint_every must be at least 1".to_owned();
+            return Err(ConfigError::Impossible { table: "the run's settings".into(), why });
+        }
+        let entry = assembly::agent(&settings.agent)?;
+        (entry.check)(&agent)?;
+        Ok(Self { settings, agent })
+    }
+}
+
+/// Reads one table of an agent's settings.
+///
+/// # Errors
+/// [`ConfigError::Impossible`] names the table.
+pub fn section<T: DeserializeOwned>(table: Table, name: &str) -> Result<T, ConfigError> {
+    table.try_into().map_err(|e: toml::de::Error| ConfigError::Impossible {
+        table: name.to_owned(),
+        why: e.message().into(),
+    })
+}
+
+fn read(path: &Path) -> Result<Table, ConfigError> {
+    let shown = path.display().to_string();
+    let text = fs::read_to_string(path)
+        .map_err(|e| ConfigError::Unreadable { path: shown.clone(), why: e.to_string() })?;
+    text.parse().map_err(|e: toml::de::Error| ConfigError::Malformed { path: shown, why: e.to_string() })
+}
+
+/// Puts the values of `over` in the place of `base`'s, which has every key there is.
+fn overlay(base: &mut Table, over: &Table, prefix: &str) -> Result<(), ConfigError> {
+    for (name, value) in over {
+        let key = format!("{prefix}{name}");
+        let names: Vec<_> = base.keys().cloned().collect();
+        let Some(present) = base.get_mut(name) else {
+            let nearest = nearest(name, names.iter().map(String::as_str)).unwrap_or_default();
+            return Err(ConfigError::UnknownKey { key, nearest: format!("{prefix}{nearest}") });
+        };
+        match (present, value) {
+            (Value::Table(base), Value::Table(over)) => overlay(base, over, &format!("{key}."))?,
+            (Value::Integer(_), Value::Integer(n)) if *n < 0 => {
+                return Err(ConfigError::Negative { key, value: *n });
+            }
+            (Value::Float(x), Value::Integer(n)) => *x = *n as f64,
+            // The kernel's width is a word or a number.
+            (present, value) if present.same_type(value) || name == "gamma" => *present = value.clone(),
+            (present, value) => {
+                return Err(ConfigError::WrongType {
+                    key,
+                    found: value.type_str(),
+                    expected: present.type_str(),
+                    default: present.to_string(),
+                });
+            }
+        }
+    }
+    Ok(())
+}

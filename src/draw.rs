@@ -1,0 +1,169 @@
+//! From runs to figures: what the pictures of a run show, in the plain data that [`figures`](crate::figures) draws.
+
+use std::path::Path;
+
+use inroads_envs::{maze::Picture, registry};
+
+use crate::{
+    figures::{self, Map, Panel, Pose, Raster, Rect, Series, SetPicture, Trajectory},
+    run::{Run, RunError},
+    session::{EpisodeMetrics, Watched},
+};
+
+/// Columns and rows of the raster on which initiation sets are drawn and measured.
+const RASTER: usize = 160;
+/// Episodes over which curves are smoothed.
+const SMOOTHING: usize = 20;
+/// Solution trajectories in one figure.
+const TRAJECTORIES: usize = 5;
+
+/// A run's environment seen from above, and what an agent would see at a place of it.
+pub struct View {
+    picture: Picture,
+    /// The map.
+    pub map: Map,
+}
+
+impl View {
+    /// The view of an environment; none where there is no map.
+    pub fn of(environment: &str) -> Option<Self> {
+        let picture = registry::picture(environment)?;
+        let point = |p: [f64; 2]| [p[0] as f32, p[1] as f32];
+        let rect = |r: &inroads_envs::maze::Rectangle| Rect { min: point(r.low), max: point(r.high) };
+        let map = Map {
+            walls: picture.walls.iter().map(rect).collect(),
+            bounds: rect(&picture.bounds),
+            goal: Some((point(picture.goal), picture.tolerance as f32)),
+            starts: picture.starts.iter().map(|s| point(*s)).collect(),
+        };
+        Some(Self { picture, map: map.trimmed(0.5) })
+    }
+
+    /// The initiation set of each skill of a run.
+    pub fn sets(&self, run: &Run) -> Vec<Raster> {
+        let skills = run.session.skills().len();
+        let mut rasters = vec![Raster { nx: RASTER, ny: RASTER, inside: Vec::new() }; skills];
+        Raster::of(&self.map, RASTER, RASTER, |at| {
+            let members = run.session.members(&self.picture.observation_at(at.map(f64::from)));
+            for (raster, member) in rasters.iter_mut().zip(members) {
+                raster.inside.push(member);
+            }
+            false
+        });
+        rasters
+    }
+}
+
+/// Draws all figures of one run into its folder.
+///
+/// # Errors
+/// [`RunError`] names the file that cannot be written.
+pub fn figures(run: &Run, frozen: &[Watched]) -> Result<(), RunError> {
+    let folder = run.folder.figures();
+    curves(std::slice::from_ref(run), &folder.join("learning-curve.png"))?;
+    let Some(view) = View::of(&run.config.settings.environment) else { return Ok(()) };
+    let skills = run.session.skills();
+    if !skills.is_empty() {
+        let pictures: Vec<_> = skills
+            .iter()
+            .zip(view.sets(run))
+            .map(|(skill, region)| SetPicture {
+                title: match skill.enters {
+                    None => format!("skill {} → reaches the goal", skill.skill),
+                    Some(parent) => format!("skill {} → enters skill {parent}", skill.skill),
+                },
+                subtitle: format!(
+                    "covers {:.0} % of free space",
+                    100.0 * region.share_of_free_space(&view.map)
+                ),
+                colour: skill.skill as usize,
+                region,
+                ..SetPicture::default()
+            })
+            .collect();
+        figures::sets(folder.join("initiation-sets.png"), &view.map, &pictures)?;
+    }
+    let trajectories: Vec<_> = frozen
+        .iter()
+        .take(TRAJECTORIES)
+        .map(|w| Trajectory { points: w.path.iter().map(|(s, skill)| ([s[0], s[1]], *skill)).collect() })
+        .collect();
+    figures::trajectories(folder.join("trajectories.png"), &view.map, &trajectories)?;
+    Ok(())
+}
+
+/// Draws the learning curves of runs, those of one agent together.
+///
+/// # Errors
+/// [`RunError`] names the file that cannot be read or written.
+pub fn curves(runs: &[Run], path: &Path) -> Result<(), RunError> {
+    let mut agents: Vec<(String, Vec<Vec<EpisodeMetrics>>)> = Vec::new();
+    for run in runs {
+        let (name, metrics) = (run.config.settings.agent.clone(), run.folder.read_metrics()?);
+        match agents.iter_mut().find(|(agent, _)| *agent == name) {
+            Some((_, all)) => all.push(metrics),
+            None => agents.push((name, vec![metrics])),
+        }
+    }
+    let series = |value: fn(&EpisodeMetrics) -> f64| -> Vec<Series> {
+        let points = |run: &Vec<EpisodeMetrics>| run.iter().map(|m| (m.env_steps as f64, value(m))).collect();
+        let named = agents.iter().enumerate();
+        named
+            .map(|(i, (agent, all))| Series {
+                label: agent.to_uppercase(),
+                colour: i + 1,
+                runs: all.iter().map(points).collect(),
+            })
+            .collect()
+    };
+    let panel = |title: &str, y_label: &str, summary, y_range, series| Panel {
+        title: title.to_owned(),
+        x_label: "environment steps".to_owned(),
+        y_label: y_label.to_owned(),
+        y_range,
+        summary,
+        smoothing: SMOOTHING,
+        series,
+        levels: Vec::new(),
+    };
+    let environment = runs.first().map_or("", |run| run.config.settings.environment.as_str());
+    figures::curves(
+        path,
+        &[
+            panel(
+                &format!("{environment}: return in training"),
+                "return an episode",
+                figures::Summary::MedianAndRange,
+                None,
+                series(|m| f64::from(m.reward)),
+            ),
+            panel(
+                &format!("{environment}: success in training"),
+                "share of episodes",
+                figures::Summary::MeanAndInterval,
+                Some((0.0, 1.0)),
+                series(|m| if m.success { 1.0 } else { 0.0 }),
+            ),
+        ],
+    )?;
+    Ok(())
+}
+
+/// Draws one episode as a GIF.
+///
+/// # Errors
+/// [`RunError`] when the environment has no map, or the file cannot be written.
+pub fn movie(run: &Run, watched: &Watched, path: &Path) -> Result<(), RunError> {
+    let environment = &run.config.settings.environment;
+    let view = View::of(environment).ok_or_else(|| RunError::NoMap(environment.clone()))?;
+    let every = watched.path.len().div_ceil(300);
+    let poses: Vec<_> = watched
+        .path
+        .iter()
+        .enumerate()
+        .filter(|(step, _)| step % every == 0 || step + 1 == watched.path.len())
+        .map(|(step, (s, skill))| Pose { step, at: [s[0], s[1]], heading: s[2], skill: *skill })
+        .collect();
+    figures::movie(path, &view.map, &poses)?;
+    Ok(())
+}

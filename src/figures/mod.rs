@@ -1,0 +1,49 @@
+//! Pictures from plain data: learning curves, drawings on a maze map, and a moving picture of an episode.
+//!
+//! Nothing here knows an agent or an environment. A caller fills in numbers, a function writes one file:
+//!
+//! | function | file | in the thesis |
+//! |---|---|---|
+//! | [`curves`] | PNG, learning curves with every seed drawn | figure 3.1 |
+//! | [`sets()`] | PNG, one panel a skill: where its initiation set is | figure 3.2 |
+//! | [`trajectories`] | PNG, paths coloured by the option that acted | figure 3.3 |
+//! | [`movie()`] | GIF, the robot in its maze seen from above | |
+//!
+//! Three rules hold in all of them. World coordinates have **y upwards**. Colours are numbers of one palette that
+//! colour-blind readers can tell apart ([`skill_name`]: 0, black, is the global option). And the same data give the
+//! same bytes: no clock, no system font, no randomness.
+//!
+//! Lists may be empty and values may be NaN: what cannot be drawn is left out. Where not even an empty picture is
+//! left (no panel, no frame), where a raster has the wrong length, or where the file cannot be written, the answer is
+//! a [`FigureError`].
+//!
+//! Shapes are rasterised by `tiny-skia`, letters come from the DejaVu fonts through `ttf-parser`: all Rust.
+
+mod axis;
+mod canvas;
+mod caption;
+mod chart;
+mod error;
+mod indexed;
+mod legend;
+mod map;
+mod maze;
+mod movie;
+mod palette;
+mod raster;
+mod sets;
+mod summary;
+#[cfg(test)]
+mod tests;
+mod text;
+mod trajectory;
+
+pub use chart::{Level, Panel, Series, curves};
+pub use error::FigureError;
+pub use map::{Map, Rect};
+pub use movie::{Pose, movie};
+pub use palette::skill_name;
+pub use raster::Raster;
+pub use sets::{SetPicture, sets};
+pub use summary::Summary;
+pub use trajectory::{Trajectory, trajectories};

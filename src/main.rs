@@ -1,0 +1,7 @@
+//! The `inroads` command.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    inroads::cli::main()
+}

@@ -1,0 +1,95 @@
+//! What can go wrong with a run.
+
+use std::path::{Path, PathBuf};
+
+use inroads_envs::Refused;
+
+use crate::config::ConfigError;
+
+/// What is wrong with a run, and how to mend it.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The configuration is at fault.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// The environment refused an action of the agent.
+    #[error(
+        "the environment refused an action: {0}. Training diverged; try smaller rates (`policy.actor_rate`)"
+    )]
+    Refused(#[from] Refused),
+    /// A folder is in the way.
+    #[error("{0} exists already and nothing in it was touched; choose another --out, or go on with --resume")]
+    Exists(PathBuf),
+    /// There is no such run.
+    #[error("{0} is no run folder (it has no config.toml); give the folder that `train` wrote")]
+    NoRun(PathBuf),
+    /// A run without any checkpoint.
+    #[error("{0} has no checkpoint to go on from; begin again in another folder")]
+    NoCheckpoint(PathBuf),
+    /// A checkpoint that is damaged.
+    #[error("checkpoint {file} is corrupt ({why}) and was refused; {}", offer(.intact.as_deref()))]
+    Corrupt {
+        /// The damaged file.
+        file: PathBuf,
+        /// What is wrong with it.
+        why: String,
+        /// An older checkpoint that is intact.
+        intact: Option<PathBuf>,
+    },
+    /// A checkpoint that is intact, but of another agent or version.
+    #[error("checkpoint {file} does not fit this run's configuration: {why}")]
+    Foreign {
+        /// The file.
+        file: PathBuf,
+        /// What does not fit.
+        why: String,
+    },
+    /// A metrics file that has fewer episodes than the checkpoint.
+    #[error(
+        "{file} has {found} lines, but the checkpoint was written after {expected} episodes; restore the file"
+    )]
+    Short {
+        /// The file.
+        file: PathBuf,
+        /// Lines that are there.
+        found: u64,
+        /// Lines that must be.
+        expected: u64,
+    },
+    /// The system would not read or write a file.
+    #[error("cannot {doing} {path}: {why}")]
+    Io {
+        /// What was tried.
+        doing: &'static str,
+        /// With which file.
+        path: PathBuf,
+        /// What the system says.
+        why: std::io::Error,
+    },
+    /// There is no skill to act with.
+    #[error("this run's agent has no learned skill to act with; leave --chain-alone out")]
+    NoSkills,
+    /// An environment that cannot be drawn.
+    #[error("`{0}` has no map to draw on")]
+    NoMap(String),
+    /// A picture could not be drawn.
+    #[error(transparent)]
+    Figure(#[from] crate::figures::FigureError),
+}
+
+impl RunError {
+    /// Wraps an error of the system with what was tried.
+    pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        move |why| Self::Io { doing, path, why }
+    }
+}
+
+fn offer(intact: Option<&Path>) -> String {
+    match intact {
+        Some(path) => {
+            format!("the one before it is intact: go on from it with --checkpoint {}", path.display())
+        }
+        None => "there is no intact one before it; begin again in another folder".to_owned(),
+    }
+}

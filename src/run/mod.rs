@@ -1,0 +1,129 @@
+//! A run: training with its folder, stopped and resumed without a difference.
+//!
+//! A run folder holds `config.toml` (every value), `metrics.jsonl` (a line an episode, without times),
+//! `timings.jsonl` (a line an episode, with them), `sessions.jsonl` (a line each time somebody ran it),
+//! `checkpoints/`, `figures/` and, when it is done, `summary.json`.
+
+mod checkpoint;
+mod error;
+mod folder;
+mod summary;
+
+pub use error::RunError;
+pub use folder::Folder;
+pub use summary::{SetSummary, Summary};
+
+use std::{
+    path::Path,
+    sync::atomic::{AtomicBool, Ordering},
+    time::Instant,
+};
+
+use crate::{
+    config::Config,
+    session::{self, EpisodeMetrics, Session},
+};
+
+/// A session with its folder.
+pub struct Run {
+    /// The configuration.
+    pub config: Config,
+    /// The folder.
+    pub folder: Folder,
+    /// The agent in its environment.
+    pub session: Box<dyn Session>,
+}
+
+/// How a call of [`Run::train`] ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// All episodes are done.
+    Complete,
+    /// Somebody asked to stop; a checkpoint is written.
+    Interrupted,
+}
+
+impl Run {
+    /// Begins a run in a new folder.
+    ///
+    /// # Errors
+    /// [`RunError`] when the folder exists already or cannot be made; nothing is overwritten.
+    pub fn create(config: Config, path: &Path) -> Result<Self, RunError> {
+        let session = session::build(&config)?;
+        let folder = Folder::create(path, &config)?;
+        Ok(Self { config, folder, session })
+    }
+
+    /// Takes a run up where its newest checkpoint left it, or the named one. Lines that were written after that
+    /// checkpoint are dropped: the same episodes will write them again.
+    ///
+    /// # Errors
+    /// [`RunError`] names what is missing or corrupt, and which checkpoint is intact.
+    pub fn resume(path: &Path, checkpoint: Option<&Path>) -> Result<Self, RunError> {
+        let run = Self::open(path, checkpoint)?;
+        run.folder.rewind(run.session.progress().0)?;
+        Ok(run)
+    }
+
+    /// Opens a run for looking at it: nothing is written.
+    ///
+    /// # Errors
+    /// As [`resume`](Self::resume).
+    pub fn open(path: &Path, checkpoint: Option<&Path>) -> Result<Self, RunError> {
+        let folder = Folder::open(path)?;
+        let config = Config::read(&folder.config())?;
+        let mut session = session::build(&config)?;
+        let (file, bag) = folder.checkpoint(checkpoint)?;
+        session.load(&bag).map_err(|why| RunError::Foreign { file, why: why.to_string() })?;
+        Ok(Self { config, folder, session })
+    }
+
+    /// Trains until the configuration's end, or until `stop` is set; `watch` sees each episode.
+    ///
+    /// # Errors
+    /// [`RunError`] when a file cannot be written or the environment refused an action.
+    pub fn train(
+        &mut self,
+        stop: &AtomicBool,
+        mut watch: impl FnMut(&EpisodeMetrics),
+    ) -> Result<Ended, RunError> {
+        let (first_episode, first_step) = self.session.progress();
+        let began = Instant::now();
+        let mut saved = first_episode;
+        let ended = loop {
+            if self.done() {
+                break Ended::Complete;
+            }
+            if stop.load(Ordering::Relaxed) {
+                break Ended::Interrupted;
+            }
+            let episode_began = Instant::now();
+            let metrics = self.session.train()?;
+            let seconds = episode_began.elapsed().as_secs_f64();
+            self.folder.append(&metrics, seconds)?;
+            watch(&metrics);
+            if self.session.progress().0 - saved >= self.config.settings.checkpoint_every {
+                saved = self.save()?;
+            }
+        };
+        let (episodes, steps) = self.session.progress();
+        if saved < episodes {
+            self.save()?;
+        }
+        let seconds = began.elapsed().as_secs_f64();
+        self.folder.log_session(first_episode, episodes - first_episode, steps - first_step, seconds)?;
+        Ok(ended)
+    }
+
+    fn done(&self) -> bool {
+        let (episodes, steps) = self.session.progress();
+        let settings = &self.config.settings;
+        episodes >= settings.episodes || (settings.max_steps > 0 && steps >= settings.max_steps)
+    }
+
+    fn save(&self) -> Result<u64, RunError> {
+        let (episodes, _) = self.session.progress();
+        self.folder.write_checkpoint(episodes, &self.session.save())?;
+        Ok(episodes)
+    }
+}

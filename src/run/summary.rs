@@ -1,0 +1,152 @@
+//! `summary.json`: what a run came to.
+
+use std::fs;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Run, RunError};
+use crate::{
+    draw::View,
+    session::{Protocol, Watched},
+};
+
+/// What a run came to. Success in training and frozen success are separate columns.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// The agent's name.
+    pub agent: String,
+    /// The environment's name.
+    pub environment: String,
+    /// The run's seed.
+    pub seed: u64,
+    /// The backend's name.
+    pub backend: String,
+    /// Training episodes.
+    pub episodes: u64,
+    /// Steps of the environment in them.
+    pub env_steps: u64,
+    /// Minibatch updates in them, over all networks.
+    pub updates: u64,
+    /// Seconds of training, over all sessions.
+    pub wall_seconds: f64,
+    /// Share of successes in the last 50 training episodes (or in all, when there are fewer).
+    pub success_last_50: f64,
+    /// Frozen, noise-free episodes that each of the following comes from.
+    pub eval_episodes: u64,
+    /// Share of successes.
+    pub eval_success: f64,
+    /// Median steps of the successful ones; none when there are none.
+    pub eval_median_steps: Option<f64>,
+    /// Mean share of steps that learned skills took.
+    pub eval_skill_share: f64,
+    /// Share of successes without primitive actions wherever a learned skill may start; none without skills.
+    pub chain_success: Option<f64>,
+    /// Median steps of those successes.
+    pub chain_median_steps: Option<f64>,
+    /// Number of learned skills.
+    pub skills: usize,
+    /// Of the evaluation's start states, the share that a learned initiation set covers.
+    pub starts_covered: f64,
+    /// The learned skills.
+    pub sets: Vec<SetSummary>,
+}
+
+/// One learned skill.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SetSummary {
+    /// What the agent tells of it.
+    #[serde(flatten)]
+    pub skill: inroads_discovery::SkillRecord,
+    /// Its initiation set's share of the free space; none where there is no map.
+    pub area: Option<f64>,
+}
+
+impl Run {
+    /// Evaluates the agent and writes `summary.json`; the frozen episodes come back for pictures.
+    ///
+    /// # Errors
+    /// [`RunError`] when the file cannot be written or the environment refused an action.
+    pub fn summarise(&mut self) -> Result<(Summary, Vec<Watched>), RunError> {
+        let (summary, frozen) = self.evaluation()?;
+        let path = self.folder.summary();
+        let text = serde_json::to_string_pretty(&summary).expect("plain data always encodes");
+        fs::write(&path, text + "\n").map_err(RunError::io("write", &path))?;
+        Ok((summary, frozen))
+    }
+
+    /// Evaluates the agent; nothing is written.
+    ///
+    /// # Errors
+    /// [`RunError`] when a log cannot be read or the environment refused an action.
+    pub fn evaluation(&mut self) -> Result<(Summary, Vec<Watched>), RunError> {
+        let metrics = self.folder.read_metrics()?;
+        let n = self.config.settings.evaluation_episodes;
+        let frozen = self.evaluate(Protocol::Frozen, n)?;
+        let alone = self.evaluate(Protocol::ChainAlone, n)?;
+        let last = &metrics[metrics.len().saturating_sub(50)..];
+        let (episodes, env_steps) = self.session.progress();
+        let settings = &self.config.settings;
+        let summary = Summary {
+            agent: settings.agent.clone(),
+            environment: settings.environment.clone(),
+            seed: settings.seed,
+            backend: settings.backend.to_string(),
+            episodes,
+            env_steps,
+            updates: metrics.last().map_or(0, |m| m.updates.values().sum()),
+            wall_seconds: self.folder.seconds()?,
+            success_last_50: share(last.iter().map(|m| m.success)),
+            eval_episodes: n,
+            eval_success: share(frozen.iter().map(|w| w.summary.success)),
+            eval_median_steps: median_steps(&frozen),
+            eval_skill_share: mean(frozen.iter().map(Watched::skill_share)),
+            chain_success: (!alone.is_empty()).then(|| share(alone.iter().map(|w| w.summary.success))),
+            chain_median_steps: median_steps(&alone),
+            skills: self.session.skills().len(),
+            starts_covered: share(frozen.iter().map(|w| self.session.members(&w.path[0].0).contains(&true))),
+            sets: self.sets(),
+        };
+        Ok((summary, frozen))
+    }
+
+    /// Watches `n` frozen episodes; none when the agent has nothing to act with under that protocol.
+    ///
+    /// # Errors
+    /// The action that the environment refused.
+    pub fn evaluate(&mut self, protocol: Protocol, n: u64) -> Result<Vec<Watched>, RunError> {
+        (0..n)
+            .filter_map(|index| self.session.evaluate(protocol, index).transpose())
+            .collect::<Result<_, _>>()
+            .map_err(RunError::from)
+    }
+
+    fn sets(&self) -> Vec<SetSummary> {
+        let view = View::of(&self.config.settings.environment);
+        let mut rasters = view
+            .iter()
+            .flat_map(|view| view.sets(self).into_iter().map(|raster| raster.share_of_free_space(&view.map)));
+        let skills = self.session.skills().into_iter();
+        skills.map(|skill| SetSummary { skill, area: rasters.next() }).collect()
+    }
+}
+
+fn share(of: impl Iterator<Item = bool>) -> f64 {
+    mean(of.map(|yes| if yes { 1.0 } else { 0.0 }))
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, n) = values.fold((0.0, 0.0), |(sum, n), x| (sum + x, n + 1.0));
+    if n == 0.0 { 0.0 } else { sum / n }
+}
+
+fn median_steps(watched: &[Watched]) -> Option<f64> {
+    let mut steps: Vec<_> =
+        watched.iter().filter(|w| w.summary.success).map(|w| f64::from(w.summary.steps)).collect();
+    steps.sort_by(f64::total_cmp);
+    let middle = steps.len() / 2;
+    match steps.len() {
+        0 => None,
+        n if n % 2 == 1 => Some(steps[middle]),
+        _ => Some(f64::midpoint(steps[middle - 1], steps[middle])),
+    }
+}

@@ -1,0 +1,134 @@
+//! What a user can get wrong is named with its mend, ends with exit code 2, and overwrites nothing.
+
+mod support;
+
+use std::fs;
+
+use support::{Folder, fail, inroads, newest_checkpoint, small_training, succeed};
+
+/// Training arguments that must be refused; the error's text. Nothing may have been written.
+fn refused(arguments: &[&str]) -> String {
+    let folder = Folder::new("refused");
+    let run = folder.join("run");
+    let text = fail(inroads(&["train"]).args(arguments).arg("--out").arg(&run));
+    assert!(!run.exists(), "a refused training left a folder");
+    text
+}
+
+#[test]
+fn an_unknown_agent_or_environment_is_answered_with_the_nearest() {
+    let text = refused(&["dcs", "point-maze"]);
+    assert!(text.contains("`dcs`") && text.contains("did you mean `dsc`"), "{text}");
+    let text = refused(&["dsc", "point-mace"]);
+    assert!(text.contains("`point-mace`") && text.contains("`point-maze`"), "{text}");
+}
+
+#[test]
+fn an_agent_that_cannot_act_there_is_answered_with_those_that_can() {
+    let text = refused(&["dsc", "corridor-5"]);
+    assert!(text.contains("dsc-tabular"), "{text}");
+}
+
+#[test]
+fn an_unknown_key_is_answered_with_the_nearest() {
+    let text = refused(&["dsc", "point-maze", "--set", "chain.gestatoin=3"]);
+    assert!(text.contains("`chain.gestatoin`") && text.contains("`chain.gestation`"), "{text}");
+    let text = refused(&["dsc", "point-maze", "--set", "polcy.batch=3"]);
+    assert!(text.contains("`policy`"), "{text}");
+}
+
+#[test]
+fn a_wrong_type_and_an_impossible_value_are_named() {
+    let text = refused(&["dsc", "point-maze", "--set", "policy.batch=many"]);
+    assert!(text.contains("`policy.batch`") && text.contains("string") && text.contains("integer"), "{text}");
+    let text = refused(&["dsc", "point-maze", "--set", "max_steps=-5"]);
+    assert!(text.contains("`max_steps`") && text.contains("-5"), "{text}");
+    let text = refused(&["dsc", "point-maze", "--set", "policy.discount=1.5"]);
+    assert!(text.contains("discount") && text.contains("1.5"), "{text}");
+    let text = refused(&["dsc", "point-maze", "--set", "policy.batch"]);
+    assert!(text.contains("key=value"), "{text}");
+    let text = refused(&["dsc", "point-maze", "--backend", "cuda"]);
+    assert!(text.contains("cuda") && text.contains("flex"), "{text}");
+}
+
+#[test]
+fn a_configuration_that_is_not_there_or_not_toml_is_named() {
+    let folder = Folder::new("configuration");
+    let file = folder.join("c.toml");
+    let path = file.to_str().unwrap();
+    let text = refused(&["dsc", "point-maze", "--config", path]);
+    assert!(text.contains(path), "{text}");
+    fs::write(&file, "[chain\ngestation = 3").unwrap();
+    let text = refused(&["dsc", "point-maze", "--config", path]);
+    assert!(text.contains(path) && text.contains("line 1"), "{text}");
+}
+
+#[test]
+fn a_folder_in_the_way_is_left_as_it_is() {
+    let folder = Folder::new("exists");
+    let run = folder.join("run");
+    fs::create_dir(&run).unwrap();
+    fs::write(run.join("precious"), "data").unwrap();
+    let text = fail(&mut small_training(&run, 2));
+    assert!(text.contains("exists already") && text.contains("--resume"), "{text}");
+    assert_eq!(fs::read_dir(&run).unwrap().count(), 1);
+    assert_eq!(fs::read_to_string(run.join("precious")).unwrap(), "data");
+}
+
+#[test]
+fn a_folder_that_is_no_run_is_named() {
+    let folder = Folder::new("no-run");
+    for command in ["evaluate", "plot", "render"] {
+        let text = fail(inroads(&[command]).arg(folder.join("nothing")));
+        assert!(text.contains("no run folder"), "{text}");
+    }
+}
+
+#[test]
+fn a_damaged_checkpoint_is_refused_and_the_one_before_it_offered() {
+    let folder = Folder::new("damaged");
+    let run = folder.join("run");
+    succeed(&mut small_training(&run, 8));
+    let newest = newest_checkpoint(&run);
+    let whole = fs::read(&newest).unwrap();
+    let resume = || {
+        let mut command = inroads(&["train", "dsc", "point-corridor", "--resume", "--out"]);
+        command.arg(&run);
+        command
+    };
+
+    fs::write(&newest, &whole[..whole.len() / 2]).unwrap();
+    let text = fail(&mut resume());
+    assert!(text.contains("00000008.ckpt is corrupt") && text.contains("cut off"), "{text}");
+    assert!(text.contains("--checkpoint") && text.contains("00000004.ckpt"), "{text}");
+    assert_eq!(fs::read(&newest).unwrap().len(), whole.len() / 2, "the damaged file was touched");
+
+    // The offered one works, and comes to the same end.
+    let older = newest.with_file_name("00000004.ckpt");
+    succeed(resume().arg("--checkpoint").arg(&older));
+    assert!(fs::read(newest_checkpoint(&run)).unwrap() == whole);
+
+    fs::write(&newest, "not a checkpoint at all").unwrap();
+    fs::remove_file(&older).unwrap();
+    let text = fail(&mut resume());
+    assert!(text.contains("corrupt") && text.contains("no intact one"), "{text}");
+}
+
+#[test]
+fn a_run_is_resumed_as_what_it_is() {
+    let folder = Folder::new("disagree");
+    let run = folder.join("run");
+    succeed(&mut small_training(&run, 2));
+    let text = fail(inroads(&["train", "ddpg", "point-corridor", "--resume", "--out"]).arg(&run));
+    assert!(text.contains("`dsc`") && text.contains("`ddpg`"), "{text}");
+}
+
+#[test]
+fn a_nan_action_ends_the_training_with_the_component_named() {
+    let folder = Folder::new("nan");
+    let run = folder.join("run");
+    let mut training = small_training(&run, 20);
+    training.args(["--set", "policy.actor_rate=1e38", "--set", "policy.critic_rate=1e38"]);
+    let text = fail(&mut training);
+    assert!(text.contains("action component 0 is NaN"), "{text}");
+}

@@ -1,0 +1,53 @@
+//! Reads the records of other systems that conformance tests compare with.
+//!
+//! Include it with `#[path = "../../tests/support/fixtures.rs"] mod fixtures;`. The records lie in the folder
+//! that `INROADS_FIXTURES` names, by default `tests/fixtures` of the repository, one folder a family.
+
+use std::{fs, io::Read, path::PathBuf};
+
+use serde_json::Value;
+
+/// All records of a family, from every `*.jsonl` and `*.jsonl.gz` whose name starts with `prefix`, in the
+/// order of the names.
+///
+/// # Panics
+/// When there is none, or a file cannot be read: a conformance test that compares nothing has not passed.
+pub(crate) fn records(family: &str, prefix: &str) -> Vec<Value> {
+    let root = std::env::var_os("INROADS_FIXTURES").map_or_else(
+        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/fixtures")),
+        PathBuf::from,
+    );
+    let folder = root.join(family);
+    let listing = fs::read_dir(&folder)
+        .unwrap_or_else(|why| panic!("no fixtures in {}: {why}; set INROADS_FIXTURES", folder.display()));
+    let mut files: Vec<_> = listing
+        .map(|entry| entry.expect("the folder of fixtures can be listed").path())
+        .filter(|path| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            name.starts_with(prefix) && (name.ends_with(".jsonl") || name.ends_with(".jsonl.gz"))
+        })
+        .collect();
+    files.sort();
+    let records: Vec<_> = files.iter().flat_map(read).collect();
+    assert!(
+        !records.is_empty(),
+        "{} holds no records in {prefix}*.jsonl or {prefix}*.jsonl.gz; set INROADS_FIXTURES to the folder above it",
+        folder.display()
+    );
+    records
+}
+
+fn read(path: &PathBuf) -> Vec<Value> {
+    let bytes = fs::read(path).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
+    let mut text = String::new();
+    match path.extension().is_some_and(|extension| extension == "gz") {
+        true => flate2::read::MultiGzDecoder::new(bytes.as_slice()).read_to_string(&mut text),
+        false => bytes.as_slice().read_to_string(&mut text),
+    }
+    .unwrap_or_else(|why| panic!("{}: {why}", path.display()));
+    let parse = |(number, line): (usize, &str)| {
+        serde_json::from_str(line)
+            .unwrap_or_else(|why| panic!("{}, line {}: {why}", path.display(), number + 1))
+    };
+    text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()).map(parse).collect()
+}
