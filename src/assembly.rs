@@ -9,10 +9,11 @@ use inroads_agents::{
     Encoder, Flat,
     classify::{Nearest, Svm, SvmConfig},
     ddpg::{Ddpg, DdpgConfig},
-    dqn::{DqnConfig, GrowingDqn},
+    dqn::{DqnConfig, GrowingDqn, Loss},
     encode::{Scaled, Select},
     flat::Pace,
     nets::Backend,
+    noise::NoiseConfig,
     tabular::{TabularConfig, TabularQ},
 };
 use inroads_discovery::{
@@ -134,8 +135,22 @@ impl MemoryConfig {
     }
 }
 
+/// DDPG as tuned on the Point-Maze, the same for every agent (`docs/results/point-maze.md`): networks that a CPU
+/// trains in minutes, no weight decay (the authors' keeps values of −100 out of reach), noise that begins wide.
+fn tuned_ddpg() -> DdpgConfig {
+    let noise = NoiseConfig { start: 1.0, end: 0.05, decay_steps: 50_000, ..NoiseConfig::default() };
+    let defaults = DdpgConfig::default();
+    DdpgConfig { hidden: vec![128, 128], actor_rate: 3e-4, critic_decay: 0.0, noise, ..defaults }
+}
+
+/// The policy over options as tuned on the Point-Maze: values of −100 are learned within ten thousand decisions.
+fn tuned_dqn() -> DqnConfig {
+    let defaults = DqnConfig::default();
+    DqnConfig { hidden: vec![128, 64], rate: 1e-3, tau: 0.01, loss: Loss::Squared, ..defaults }
+}
+
 /// Settings of `dsc`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct DscConfig {
     memory: MemoryConfig,
@@ -144,6 +159,19 @@ struct DscConfig {
     initiation: InitiationConfig,
     over_options: DqnConfig,
     exploration: Epsilon,
+}
+
+impl Default for DscConfig {
+    fn default() -> Self {
+        Self {
+            memory: MemoryConfig::default(),
+            policy: tuned_ddpg(),
+            chain: ChainConfig::default(),
+            initiation: InitiationConfig::default(),
+            over_options: tuned_dqn(),
+            exploration: Epsilon::default(),
+        }
+    }
 }
 
 /// Settings of initiation sets.
@@ -163,11 +191,17 @@ impl Default for InitiationConfig {
 }
 
 /// Settings of `ddpg`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct FlatDdpgConfig {
     memory: MemoryConfig,
     policy: DdpgConfig,
+}
+
+impl Default for FlatDdpgConfig {
+    fn default() -> Self {
+        Self { memory: MemoryConfig::default(), policy: tuned_ddpg() }
+    }
 }
 
 /// Settings of `dsc-tabular`.

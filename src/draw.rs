@@ -12,6 +12,8 @@ use crate::{
 
 /// Columns and rows of the raster on which initiation sets are drawn and measured.
 const RASTER: usize = 160;
+/// Metres of the outer wall that are shown.
+const BORDER: f32 = 0.75;
 /// Episodes over which curves are smoothed.
 const SMOOTHING: usize = 20;
 /// Solution trajectories in one figure.
@@ -30,13 +32,14 @@ impl View {
         let picture = registry::picture(environment)?;
         let point = |p: [f64; 2]| [p[0] as f32, p[1] as f32];
         let rect = |r: &inroads_envs::maze::Rectangle| Rect { min: point(r.low), max: point(r.high) };
+        let free = rect(&picture.bounds);
         let map = Map {
             walls: picture.walls.iter().map(rect).collect(),
-            bounds: rect(&picture.bounds),
+            bounds: Rect { min: free.min.map(|x| x - BORDER), max: free.max.map(|x| x + BORDER) },
             goal: Some((point(picture.goal), picture.tolerance as f32)),
             starts: picture.starts.iter().map(|s| point(*s)).collect(),
         };
-        Some(Self { picture, map: map.trimmed(0.5) })
+        Some(Self { picture, map })
     }
 
     /// The initiation set of each skill of a run.

@@ -120,7 +120,7 @@ pub struct GrowingDqn {
 }
 
 impl GrowingDqn {
-    /// A learner with weights drawn from `rng`, for rows of `inputs` numbers and `outputs` choices.
+    /// A learner with weights drawn from `rng`, for rows of `inputs` numbers and at least one choice.
     pub fn new(inputs: usize, outputs: usize, config: &DqnConfig, backend: Backend, rng: &mut Rng) -> Self {
         let nets = QNetwork::new(inputs, &config.hidden, outputs, backend, rng);
         Self { config: config.clone(), nets, updates: 0 }

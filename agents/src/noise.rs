@@ -129,7 +129,7 @@ mod tests {
         let mut action = [0.5; 64];
         noise.perturb(&mut action, &mut Memory::new(), 0, &mut Seed(0).stream("noise", 0));
         assert!(action.iter().all(|a| a.abs() <= 1.0));
-        assert!(action.iter().any(|a| *a == 1.0) && action.iter().any(|a| *a == -1.0));
+        assert!(action.contains(&1.0) && action.contains(&-1.0));
         assert!(noise.check().is_ok());
         assert!(NoiseConfig { end: 0.0, ..noise }.check().unwrap_err().contains("noise.end"));
     }

@@ -7,6 +7,7 @@
 
 pub mod check;
 pub mod corridor;
+pub mod dense;
 pub mod limit;
 pub mod maze;
 pub mod registry;

@@ -1,6 +1,7 @@
 //! Environments by name.
 
 use crate::corridor::Corridor;
+use crate::dense::DenseReward;
 use crate::maze::{CORRIDOR, Maze, Picture, PointMaze, U_MAZE};
 use crate::{Environment, Refused, Spec, Step, TimeLimit};
 
@@ -49,6 +50,15 @@ pub const ENTRIES: &[Entry] = &[
         picture: || Some(maze(&U_MAZE).picture().clone()),
     },
     Entry {
+        name: DENSE.0,
+        about: DENSE.1,
+        make: || {
+            let env = DenseReward::named(DENSE.0, DENSE.1, maze(&U_MAZE));
+            AnyEnvironment::Vectors(Box::new(TimeLimit::new(env, 1000)))
+        },
+        picture: || Some(maze(&U_MAZE).picture().clone()),
+    },
+    Entry {
         name: CORRIDOR.name,
         about: CORRIDOR.about,
         make: || AnyEnvironment::Vectors(Box::new(TimeLimit::new(maze(&CORRIDOR), 200))),
@@ -61,6 +71,10 @@ pub const ENTRIES: &[Entry] = &[
         picture: || None,
     },
 ];
+
+/// Name and sentence of the Point-Maze that pays by the distance.
+const DENSE: (&str, &str) =
+    ("point-maze-dense", "the same maze; minus a tenth of the distance to the goal a step");
 
 fn maze(maze: &Maze<'_>) -> PointMaze {
     PointMaze::new(maze).expect("the mazes of this crate are well formed")

@@ -40,8 +40,9 @@ pub(super) struct Arguments {
     /// Read settings from a TOML file
     #[arg(long, conflicts_with = "resume")]
     config: Option<PathBuf>,
-    /// Set one value, such as `chain.gestation=3` (may be given again)
-    #[arg(long = "set", value_name = "KEY=VALUE", conflicts_with = "resume")]
+    /// Set one value, such as `chain.gestation=3` (may be given again); with --resume only how long to train:
+    /// `episodes` and `max_steps`
+    #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
 }
 
@@ -51,8 +52,12 @@ pub(super) fn train(arguments: &Arguments) -> Done {
     let default = || format!("runs/{}-{}-{}", settings.agent, settings.environment, settings.seed).into();
     let path = arguments.out.clone().unwrap_or_else(default);
     let mut run = if arguments.resume {
-        let run = Run::resume(&path, arguments.checkpoint.as_deref())?;
+        let mut run = Run::resume(&path, arguments.checkpoint.as_deref())?;
         agree(arguments, &run.config)?;
+        if !arguments.set.is_empty() {
+            let longer = assigned(run.config.clone(), &arguments.set)?;
+            run.lengthen(&longer)?;
+        }
         run
     } else {
         Run::create(config, &path)?
@@ -89,9 +94,7 @@ fn configure(arguments: &Arguments) -> Result<Config, ConfigError> {
     if let Some(file) = &arguments.config {
         config = config.with_file(file)?;
     }
-    for assignment in &arguments.set {
-        config = config.with_assignment(assignment)?;
-    }
+    config = assigned(config, &arguments.set)?;
     if let Some(seed) = arguments.seed {
         config.settings.seed = seed;
     }
@@ -99,6 +102,10 @@ fn configure(arguments: &Arguments) -> Result<Config, ConfigError> {
         config = config.with_assignment(&format!("backend=\"{backend}\""))?;
     }
     Ok(config)
+}
+
+fn assigned(config: Config, assignments: &[String]) -> Result<Config, ConfigError> {
+    assignments.iter().try_fold(config, |config, assignment| config.with_assignment(assignment))
 }
 
 /// A run goes on as it was begun: what is asked of it must not differ.

@@ -51,35 +51,6 @@ impl Map {
         self.bounds.contains(point) && !self.walls.iter().any(|wall| wall.contains(point))
     }
 
-    /// The same map with bounds that end `margin` world units beyond its free space: a thick outer wall tells nothing.
-    /// Without any free space the bounds stay.
-    pub fn trimmed(self, margin: f32) -> Self {
-        // The walls' edges cut the bounds into cells that are each all free or all wall.
-        let cuts = |axis: usize| -> Vec<f32> {
-            let ends = [self.bounds.min[axis], self.bounds.max[axis]];
-            let edges = self.walls.iter().flat_map(|wall| [wall.min[axis], wall.max[axis]]).chain(ends);
-            let mut edges: Vec<f32> = edges.filter(|edge| (ends[0]..=ends[1]).contains(edge)).collect();
-            edges.sort_by(f32::total_cmp);
-            edges.dedup();
-            edges
-        };
-        let (xs, ys) = (cuts(0), cuts(1));
-        let cells =
-            ys.windows(2).flat_map(|y| xs.windows(2).map(|x| Rect { min: [x[0], y[0]], max: [x[1], y[1]] }));
-        let middle = |cell: &Rect| [0, 1].map(|axis| f32::midpoint(cell.min[axis], cell.max[axis]));
-        let free = cells.filter(|cell| self.is_free(middle(cell))).reduce(|all, cell| Rect {
-            min: [all.min[0].min(cell.min[0]), all.min[1].min(cell.min[1])],
-            max: [all.max[0].max(cell.max[0]), all.max[1].max(cell.max[1])],
-        });
-        let Some(free) = free else { return self };
-        let Rect { min, max } = self.bounds;
-        let bounds = Rect {
-            min: [(free.min[0] - margin).max(min[0]), (free.min[1] - margin).max(min[1])],
-            max: [(free.max[0] + margin).min(max[0]), (free.max[1] + margin).min(max[1])],
-        };
-        Self { bounds, ..self }
-    }
-
     /// Refuses bounds that a picture cannot have; `path` is only named in the error.
     pub(super) fn check(&self, path: &Path) -> Result<(), FigureError> {
         let [w, h] = self.bounds.size();

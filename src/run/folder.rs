@@ -29,11 +29,15 @@ impl Folder {
         for part in [folder.checkpoints(), folder.figures()] {
             fs::create_dir_all(&part).map_err(RunError::io("make", &part))?;
         }
-        fs::write(folder.config(), config.to_toml()).map_err(RunError::io("write", &folder.config()))?;
+        folder.write_config(config)?;
         for file in [folder.metrics(), folder.timings()] {
             fs::write(&file, "").map_err(RunError::io("write", &file))?;
         }
         Ok(folder)
+    }
+
+    pub(super) fn write_config(&self, config: &Config) -> Result<(), RunError> {
+        fs::write(self.config(), config.to_toml()).map_err(RunError::io("write", &self.config()))
     }
 
     /// The folder of a run that there is.

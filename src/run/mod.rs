@@ -20,7 +20,7 @@ use std::{
 };
 
 use crate::{
-    config::Config,
+    config::{Config, ConfigError},
     session::{self, EpisodeMetrics, Session},
 };
 
@@ -63,6 +63,23 @@ impl Run {
         let run = Self::open(path, checkpoint)?;
         run.folder.rewind(run.session.progress().0)?;
         Ok(run)
+    }
+
+    /// Changes how long the run trains, in its folder too.
+    ///
+    /// # Errors
+    /// [`RunError::Config`] when anything else differs.
+    pub fn lengthen(&mut self, longer: &Config) -> Result<(), RunError> {
+        let mut same = longer.clone();
+        same.settings.episodes = self.config.settings.episodes;
+        same.settings.max_steps = self.config.settings.max_steps;
+        if same != self.config {
+            let why = "a run goes on as it was begun: only episodes and max_steps may change".to_owned();
+            return Err(ConfigError::Impossible { table: "the resumed run".into(), why }.into());
+        }
+        self.folder.write_config(longer)?;
+        self.config = longer.clone();
+        Ok(())
     }
 
     /// Opens a run for looking at it: nothing is written.

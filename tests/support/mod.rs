@@ -38,9 +38,10 @@ pub(crate) fn inroads(arguments: &[&str]) -> Command {
 
 /// A training of `dsc` with small networks, so that a test takes seconds.
 pub(crate) fn small_training(out: &Path, episodes: u64) -> Command {
-    let mut command = inroads(&["train", "dsc", "point-corridor", "--seed", "3", "--out"]);
+    let mut command = inroads(&["train", "dsc", "point-corridor", "--out"]);
     command.arg(out);
     let sets = [
+        "seed=3".into(),
         format!("episodes={episodes}"),
         "checkpoint_every=4".into(),
         "evaluation_episodes=3".into(),

@@ -70,7 +70,8 @@ impl ActorCritic {
     }
 
     /// One step of the critic towards these values of these actions, and one of the actor uphill on the
-    /// critic; the critic's mean squared error before.
+    /// critic, which also pays `preactivation` times the mean square of what enters its tanh; the critic's mean
+    /// squared error before.
     pub(crate) fn learn(
         &mut self,
         states: Vec<f32>,
@@ -78,6 +79,7 @@ impl ActorCritic {
         targets: Vec<f32>,
         critic_step: Step,
         actor_step: Step,
+        preactivation: f32,
     ) -> f32 {
         let states = rows(states, self.inputs, &self.device);
         let actions = rows(actions, self.actions, &self.device);
@@ -88,18 +90,20 @@ impl ActorCritic {
         let error = critic.forward(tracked(&states), tracked(&actions)) - tracked(&targets);
         let loss = (error.clone() * error).mean();
         let grads = GradientsParams::from_grads(loss.backward(), &critic);
-        let loss = loss.into_scalar::<f32>();
+        let critic_loss = loss.into_scalar::<f32>();
         drop(critic); // so that the parameters are changed in place
         self.critic_adam.step(critic_step, &mut self.critic, grads);
 
         // The critic is frozen here: only the actor's gradient is computed.
         let actor = self.actor.clone().train();
         let value = self.critic.clone().no_grad();
-        let q = value.forward(tracked(&states), policy(&actor, tracked(&states)));
-        let grads = GradientsParams::from_grads((-q.mean()).backward(), &actor);
+        let entering = actor.forward(tracked(&states));
+        let q = value.forward(tracked(&states), tanh(entering.clone()));
+        let loss = (entering.clone() * entering).mean() * preactivation - q.mean();
+        let grads = GradientsParams::from_grads(loss.backward(), &actor);
         drop(actor);
         self.actor_adam.step(actor_step, &mut self.actor, grads);
-        loss
+        critic_loss
     }
 
     /// The targets follow by one step of size `tau`.

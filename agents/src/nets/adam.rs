@@ -94,10 +94,12 @@ struct Update<'a> {
 
 impl ModuleMapper for Update<'_> {
     fn map_float<const D: usize>(&mut self, param: Param<Tensor<D>>) -> Param<Tensor<D>> {
-        let Some(grad) = self.grads.remove::<D>(param.id).map(floats) else {
+        let Some(grad) = self.grads.remove::<D>(param.id) else {
             self.index += 1;
             return param;
         };
+        let grad = grad.into_data();
+        let grad: &[f32] = grad.as_slice().expect("our tensors are f32");
         if self.moments.len() <= self.index {
             self.moments.resize_with(self.index + 1, Default::default);
         }
@@ -107,7 +109,7 @@ impl ModuleMapper for Update<'_> {
         self.index += 1;
         let Self { scale, decay, rate, epsilon, .. } = *self;
         super::edit(param, |values| {
-            for (((p, g), m), v) in values.iter_mut().zip(&grad).zip(first).zip(second) {
+            for (((p, g), m), v) in values.iter_mut().zip(grad).zip(first).zip(second) {
                 let g = g * scale + decay * *p;
                 let mean = BETA1 * *m + (1.0 - BETA1) * g;
                 let square = BETA2 * *v + (1.0 - BETA2) * g * g;
@@ -116,5 +118,68 @@ impl ModuleMapper for Update<'_> {
                 *p -= rate * *m / (v.sqrt() + epsilon);
             }
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::nets::{Backend, init, values};
+    use burn::nn::Linear;
+    use burn::tensor::Device;
+
+    #[derive(Module, Debug, Default)]
+    struct One {
+        layers: Vec<Linear>,
+    }
+
+    /// A weight of 1 and a bias of 2, with these gradients.
+    fn module(device: &Device) -> One {
+        One { layers: vec![init::layer(vec![1.0], vec![2.0], device)] }
+    }
+
+    fn gradients(module: &One, weight: f32, bias: f32, device: &Device) -> GradientsParams {
+        let mut grads = GradientsParams::new();
+        let layer = &module.layers[0];
+        grads.register(layer.weight.id, Tensor::<2>::from_data([[weight]], device));
+        grads.register(layer.bias.as_ref().unwrap().id, Tensor::<1>::from_data([bias], device));
+        grads
+    }
+
+    #[test]
+    fn it_steps_as_the_paper_says() {
+        let device = Backend::Flex.plain();
+        let (mut one, mut adam) = (module(&device), Adam::default());
+        let step = Step { rate: 0.01, decay: 0.1, clip: 0.0 };
+        let (mut p, mut m, mut v) = ([1.0_f64, 2.0], [0.0; 2], [0.0; 2]);
+        for (t, grads) in [[0.5, -3.0], [-0.1, 2.0], [0.0, 1e-4], [7.0, 0.3]].into_iter().enumerate() {
+            let given = gradients(&one, grads[0] as f32, grads[1] as f32, &device);
+            adam.step(step, &mut one, given);
+            for i in 0..2 {
+                let g = grads[i] + 0.1 * p[i];
+                m[i] = 0.9 * m[i] + 0.1 * g;
+                v[i] = 0.999 * v[i] + 0.001 * g * g;
+                let power = t as i32 + 1;
+                let (mean, square) =
+                    (m[i] / (1.0 - 0.9_f64.powi(power)), v[i] / (1.0 - 0.999_f64.powi(power)));
+                p[i] -= 0.01 * mean / (square.sqrt() + 1e-8);
+                let ours = f64::from(values(&one)[i][0]);
+                assert!((ours - p[i]).abs() < 1e-6, "step {power}: {ours} {}", p[i]);
+            }
+        }
+    }
+
+    #[test]
+    fn the_clip_is_one_norm_for_all_and_what_has_no_gradient_stays() {
+        let device = Backend::Flex.plain();
+        let (mut one, mut adam) = (module(&device), Adam::default());
+        let given = gradients(&one, 3.0, -4.0, &device);
+        adam.step(Step { rate: 0.01, decay: 0.0, clip: 1.0 }, &mut one, given);
+        let means: Vec<f32> = adam.moments.iter().map(|(mean, _)| mean[0]).collect();
+        assert!((means[0] - 0.06).abs() < 1e-6 && (means[1] + 0.08).abs() < 1e-6, "{means:?}");
+
+        let before = values(&one);
+        adam.step(Step { rate: 0.01, decay: 0.0, clip: 1.0 }, &mut one, GradientsParams::new());
+        assert_eq!(values(&one), before);
     }
 }

@@ -1,7 +1,10 @@
 //! Networks on Burn: rows of numbers in, rows of numbers out.
 //!
-//! Burn is named in this folder only. What learners see of it are three types: [`Backend`], `ActorCritic` and
-//! `QNetwork`.
+//! Burn is named in this folder only. Learners see [`Backend`] and one struct of networks each, `ActorCritic`
+//! and `QNetwork`, which know how to act and how to make one step, but not towards what.
+//!
+//! Modules live on a plain device, so that acting records no graph; learning makes a tracked clone of them,
+//! drops it after the backward pass, and then nothing else holds the numbers and they change in place.
 
 mod actor_critic;
 mod adam;

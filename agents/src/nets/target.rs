@@ -34,3 +34,34 @@ impl ModuleMapper for Towards {
         param.map(|target| target * (1.0 - self.tau) + online * self.tau)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::nets::mlp::Mlp;
+    use crate::nets::{Backend, edit, values};
+    use inroads_envs::Seed;
+
+    struct Add(f32);
+
+    impl ModuleMapper for Add {
+        fn map_float<const D: usize>(&mut self, param: Param<Tensor<D>>) -> Param<Tensor<D>> {
+            edit(param, |values| values.iter_mut().for_each(|value| *value += self.0))
+        }
+    }
+
+    #[test]
+    fn it_goes_by_tau_of_the_way_and_leaves_the_online_network_alone() {
+        let device = Backend::Flex.plain();
+        let mut target = Mlp::new(3, &[5, 4], 2, 0.1, &device, &mut Seed(0).stream("weights", 0));
+        let online = target.clone().map(&mut Add(1.0));
+        let (before, goal) = (values(&target), values(&online));
+        follow(&mut target, &online, 0.005);
+        assert_eq!(values(&online), goal);
+        for (new, old) in values(&target).iter().flatten().zip(before.iter().flatten()) {
+            assert!((new - (old + 0.005)).abs() < 1e-6, "{new} {old}");
+        }
+        follow(&mut target, &online, 1.0);
+        assert_eq!(values(&target), goal);
+    }
+}

@@ -19,6 +19,7 @@ use inroads_agents::{
     Actor, Checkpoint, Context, Experience, Lesson, Memory, Transition, checkpoint, experience::Aim,
 };
 use inroads_envs::{End, Spec};
+use rand::RngExt;
 use serde::{Serialize, de::DeserializeOwned};
 
 use crate::{
@@ -27,6 +28,10 @@ use crate::{
 };
 use gestation::Gestation;
 use repertoire::Repertoire;
+
+/// A trajectory shorter than this part of a segment brings forth no skill: it began at the event's border, and a
+/// set of two or three states would be learned from it (authors' tree code: K/5).
+const SHORTEST: u32 = 5;
 
 /// Deep skill chaining over observations `O`, with a family of initiation sets `I`, a family of option policies
 /// `P`, and a policy over options `Q`.
@@ -175,6 +180,9 @@ impl<O: AsRef<[f32]> + Clone, I: Initiation<O>, P, Q: PolicyOverSkills<O>> Chain
             return None;
         }
         let (subgoal, step) = self.first_event(number, all)?;
+        if step + 1 < self.config.segment.div_ceil(SHORTEST) {
+            return None;
+        }
         // One skill a subgoal at a time: the next one waits until the set of the last has settled.
         let mut siblings = self.repertoire.learned().filter(|&k| self.repertoire.skill(k).subgoal == subgoal);
         if !siblings.all(|k| self.salient(k)) {
@@ -260,8 +268,13 @@ where
         let lesson = Lesson { episode, steps: now - 1..now, aim: Aim::Task, rewards: None };
         self.policy.lesson(SkillId::GLOBAL, lesson);
         self.policy.step(SkillId::GLOBAL, all, ctx);
+        let learned = self.repertoire.learned().len() as u32;
         if call.skill != SkillId::GLOBAL {
             self.policy.step(call.skill, all, ctx);
+        } else if self.config.lessons == Lessons::All && learned > 0 {
+            // What a primitive action shows is a lesson for every skill: one of them learns meanwhile.
+            let k = SkillId(ctx.learning.random_range(1..=learned));
+            self.policy.step(k, all, ctx);
         }
     }
 
