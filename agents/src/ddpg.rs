@@ -42,6 +42,8 @@ pub struct DdpgConfig {
     pub preactivation: f32,
     /// Exploration noise.
     pub noise: NoiseConfig,
+    /// Exploration noise of a [`fork`](Ddpg::fork): what already knows something explores less.
+    pub fork_noise: NoiseConfig,
 }
 
 impl Default for DdpgConfig {
@@ -57,6 +59,7 @@ impl Default for DdpgConfig {
             gradient_clip: 0.0,
             preactivation: 0.0,
             noise: NoiseConfig::default(),
+            fork_noise: NoiseConfig::default(),
         }
     }
 }
@@ -93,14 +96,15 @@ impl DdpgConfig {
                 return Err(format!("{name} is {value}; it must be 0 (none) or a number above"));
             }
         }
-        self.noise.check()
+        self.noise.check()?;
+        self.fork_noise.check()
     }
 }
 
 /// A deterministic policy for continuous actions in [−1, 1], learned off-policy.
 ///
 /// A clone has all that was learned, moments of the optimiser and number of updates included, and learns on
-/// independently: a new option begins as a clone of the global one (thesis 3.1.2).
+/// independently; a new option begins as a [`fork`](Self::fork) of the global one (thesis 3.1.2).
 pub struct Ddpg<O> {
     encoder: Arc<dyn Encoder<O> + Send + Sync>,
     config: DdpgConfig,
@@ -127,6 +131,12 @@ impl<O> Ddpg<O> {
     /// Minibatch updates made so far.
     pub fn updates(&self) -> u64 {
         self.updates
+    }
+
+    /// A clone that begins its own exploration: a new option's learner.
+    pub fn fork(&self) -> Self {
+        let config = DdpgConfig { noise: self.config.fork_noise, ..self.config.clone() };
+        Self { config, updates: 0, ..self.clone() }
     }
 
     fn encode<'a>(&self, observations: impl ExactSizeIterator<Item = &'a O>) -> Vec<f32>

@@ -20,7 +20,7 @@ pub trait SkillPolicy<O, A>: Checkpoint {
     /// Minibatch updates of skill `k`'s policy; none while it has too few lessons.
     fn practise(&mut self, k: SkillId, updates: u64, all: &Experience<O, A>, ctx: &mut Context);
 
-    /// The updates that one more step of skill `k` makes due.
+    /// The updates that one more step of skill `k` makes due; none before the global option has warmed up.
     fn step(&mut self, k: SkillId, all: &Experience<O, A>, ctx: &mut Context);
 
     /// Updates made so far, over all skills.
@@ -31,6 +31,8 @@ pub trait SkillPolicy<O, A>: Checkpoint {
 pub struct PerSkill<L> {
     members: Vec<Member<L>>,
     blank: L,
+    /// Makes a skill's learner of the global option's.
+    fork: fn(&L) -> L,
     pace: Pace,
     capacity: usize,
 }
@@ -43,11 +45,12 @@ struct Member<L> {
 }
 
 impl<L: Clone> PerSkill<L> {
-    /// A family with the global option's policy only. Each skill remembers about `capacity` steps of lessons.
-    pub fn new(global: L, capacity: usize, pace: Pace) -> Self {
+    /// A family with the global option's policy only. A new skill begins with `fork` of it, which is a clone as
+    /// far as the weights go (3.1.2). Each skill remembers about `capacity` steps of lessons.
+    pub fn new(global: L, fork: fn(&L) -> L, capacity: usize, pace: Pace) -> Self {
         let blank = global.clone();
         let member = Member { learner: global, replay: Replay::new(capacity), steps: 0, updates: 0 };
-        Self { members: vec![member], blank, pace, capacity }
+        Self { members: vec![member], blank, fork, pace, capacity }
     }
 }
 
@@ -57,7 +60,7 @@ where
 {
     fn born(&mut self, k: SkillId) {
         assert_eq!(k.index(), self.members.len(), "skills are born in the order of their numbers");
-        let learner = self.members[0].learner.clone();
+        let learner = (self.fork)(&self.members[0].learner);
         self.members.push(Member { learner, replay: Replay::new(self.capacity), steps: 0, updates: 0 });
     }
 
@@ -73,7 +76,7 @@ where
         let member = &mut self.members[k.index()];
         member.replay.forget_before(all.first());
         let batch = member.learner.batch();
-        if updates == 0 || member.replay.len() < self.pace.warm_up.max(batch) {
+        if updates == 0 || member.replay.len() < batch {
             return;
         }
         let mut clips: Vec<Clip<O, A>> = Vec::with_capacity(batch);
@@ -88,7 +91,9 @@ where
         let member = &mut self.members[k.index()];
         member.steps += 1;
         let due = self.pace.due(member.steps);
-        self.practise(k, due, all, ctx);
+        if k != SkillId::GLOBAL || member.replay.len() >= self.pace.warm_up {
+            self.practise(k, due, all, ctx);
+        }
     }
 
     fn updates(&self) -> u64 {
@@ -109,7 +114,7 @@ impl<L: Checkpoint + Clone> Checkpoint for PerSkill<L> {
     fn load(&mut self, bag: &Bag) -> Result<(), Corrupt> {
         self.members.clear();
         for i in 0..bag.get::<usize>("members")? {
-            let mut learner = self.blank.clone();
+            let mut learner = if i == 0 { self.blank.clone() } else { (self.fork)(&self.blank) };
             bag.get_part(&format!("{i}.learner"), &mut learner)?;
             let replay = bag.get(&format!("{i}.replay"))?;
             let (steps, updates) = bag.get(&format!("{i}.counts"))?;
