@@ -11,7 +11,13 @@ fn learns(backend: &str) {
     let run = folder.join("run");
     let mut training = inroads(&["train", "dsc", "point-corridor", "--backend", backend, "--out"]);
     training.arg(&run);
-    for set in ["episodes=60", "policy.hidden=[64, 64]", "memory.warm_up=200", "chain.pretrain=500"] {
+    for set in [
+        "episodes=100",
+        "policy.hidden=[64, 64]",
+        "policy.batch=64",
+        "memory.warm_up=500",
+        "chain.pretrain=500",
+    ] {
         training.args(["--set", set]);
     }
     succeed(&mut training);
@@ -19,7 +25,7 @@ fn learns(backend: &str) {
     let text = fs::read_to_string(run.join("summary.json")).unwrap();
     let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
     let number = |key: &str| summary[key].as_f64().unwrap_or_else(|| panic!("{key} in {text}"));
-    assert_eq!(number("episodes"), 60.0);
+    assert_eq!(number("episodes"), 100.0);
     assert!(number("success_last_50") >= 0.9, "{text}");
     assert!(number("eval_success") >= 0.9, "{text}");
     assert!(number("chain_success") >= 0.9, "{text}");

@@ -37,7 +37,12 @@ fn agent(env: &impl Environment) -> Dsc {
         ..ChainConfig::default()
     };
     let tables = TabularConfig { discount: 0.9, ..TabularConfig::default() };
-    let policy = PerSkill::new(TabularQ::new(2, &tables), TabularQ::clone, 1000, Pace { updates_per_step: 1.0, warm_up: 1 });
+    let policy = PerSkill::new(
+        TabularQ::new(2, &tables),
+        TabularQ::clone,
+        1000,
+        Pace { updates_per_step: 1.0, warm_up: 1 },
+    );
     let initiation = Binary::new(Arc::new(Select::new(&env.spec().place)), Nearest::new(0.25), 100);
     let epsilon = Epsilon { start: 0.5, end: 0.1, decisions: 200 };
     let over = TabularOverSkills::new(0.5, epsilon);

@@ -51,8 +51,8 @@ pub const U_MAZE: Maze<'static> = Maze {
 /// A short straight corridor, of ours, where learners can be tested in seconds.
 pub const CORRIDOR: Maze<'static> = Maze {
     name: "point-corridor",
-    about: "a point robot walks down a straight corridor of 12 m; -1 a step",
-    cells: "######\n#r..g#\n######",
+    about: "a point robot walks down a straight corridor of 8 m; -1 a step",
+    cells: "#####\n#r.g#\n#####",
     scale: 4.0,
     goal: None,
     tolerance: 0.6,

@@ -61,7 +61,7 @@ pub const ENTRIES: &[Entry] = &[
     Entry {
         name: CORRIDOR.name,
         about: CORRIDOR.about,
-        make: || AnyEnvironment::Vectors(Box::new(TimeLimit::new(maze(&CORRIDOR), 200))),
+        make: || AnyEnvironment::Vectors(Box::new(TimeLimit::new(maze(&CORRIDOR), 300))),
         picture: || Some(maze(&CORRIDOR).picture().clone()),
     },
     Entry {
