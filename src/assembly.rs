@@ -141,7 +141,7 @@ impl MemoryConfig {
 /// before anything is learned that finds the goal in a quarter of the episodes, unit noise in a seventh. An actor that
 /// cannot saturate while it has seen no reward. A large batch, so that the few successes are in it.
 fn tuned_ddpg() -> DdpgConfig {
-    let noise = NoiseConfig { start: 2.0, end: 0.3, decay_steps: 40_000, ..NoiseConfig::default() };
+    let noise = NoiseConfig { start: 2.0, end: 0.05, decay_steps: 40_000, ..NoiseConfig::default() };
     let fork_noise = NoiseConfig { start: 0.5, end: 0.05, decay_steps: 10_000, ..NoiseConfig::default() };
     DdpgConfig {
         hidden: vec![128, 128],

@@ -1,4 +1,4 @@
-//! Deep skill chaining learns: a short corridor, in seconds, on either backend.
+//! Deep skill chaining learns the Point-Maze, on either backend: the main job in small.
 
 mod support;
 
@@ -9,27 +9,16 @@ use support::{Folder, inroads, succeed};
 fn learns(backend: &str) {
     let folder = Folder::new(&format!("learning-{backend}"));
     let run = folder.join("run");
-    let mut training = inroads(&["train", "dsc", "point-corridor", "--backend", backend, "--out"]);
-    training.arg(&run);
-    for set in [
-        "episodes=100",
-        "policy.hidden=[64, 64]",
-        "policy.batch=64",
-        "memory.warm_up=500",
-        "chain.pretrain=500",
-    ] {
-        training.args(["--set", set]);
-    }
-    succeed(&mut training);
+    let mut training = inroads(&["train", "dsc", "point-maze", "--backend", backend, "--out"]);
+    succeed(training.arg(&run).args(["--set", "episodes=80"]));
 
     let text = fs::read_to_string(run.join("summary.json")).unwrap();
     let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
     let number = |key: &str| summary[key].as_f64().unwrap_or_else(|| panic!("{key} in {text}"));
-    assert_eq!(number("episodes"), 100.0);
+    assert_eq!(number("episodes"), 80.0);
+    // Noise alone succeeds in a quarter of the episodes.
     assert!(number("success_last_50") >= 0.9, "{text}");
-    assert!(number("eval_success") >= 0.9, "{text}");
-    assert!(number("chain_success") >= 0.9, "{text}");
-    assert!(number("skills") >= 1.0, "{text}");
+    assert!(number("skills") >= 2.0, "{text}");
     let figures = ["learning-curve.png", "initiation-sets.png", "trajectories.png"];
     assert!(figures.iter().all(|name| run.join("figures").join(name).is_file()));
 
@@ -40,12 +29,12 @@ fn learns(backend: &str) {
 }
 
 #[test]
-fn a_chain_is_learned_in_a_corridor_on_flex() {
+fn a_chain_is_learned_on_flex() {
     learns("flex");
 }
 
 #[test]
 #[cfg(feature = "ndarray")]
-fn a_chain_is_learned_in_a_corridor_on_ndarray() {
+fn a_chain_is_learned_on_ndarray() {
     learns("ndarray");
 }
