@@ -1,4 +1,4 @@
-//! From runs to figures: what the pictures of a run show, in the plain data that [`figures`](crate::figures) draws.
+//! From runs to figures: what the pictures of a run show, in the plain data that `crate::figures` draws.
 
 use std::path::Path;
 

@@ -3,7 +3,11 @@
 //! Include it with `#[path = "../../tests/support/fixtures.rs"] mod fixtures;`. The records lie in the folder
 //! that `INROADS_FIXTURES` names, by default `tests/fixtures` of the repository, one folder a family.
 
-use std::{fs, io::Read, path::PathBuf};
+use std::{
+    fs,
+    io::Read,
+    path::{Path, PathBuf},
+};
 
 use serde_json::Value;
 
@@ -13,10 +17,9 @@ use serde_json::Value;
 /// # Panics
 /// When there is none, or a file cannot be read: a conformance test that compares nothing has not passed.
 pub(crate) fn records(family: &str, prefix: &str) -> Vec<Value> {
-    let root = std::env::var_os("INROADS_FIXTURES").map_or_else(
-        || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/fixtures")),
-        PathBuf::from,
-    );
+    let named = std::env::var_os("INROADS_FIXTURES").unwrap_or_else(|| "tests/fixtures".into());
+    // Tests run in the folder of their crate; a relative name is meant from the repository's.
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join(named);
     let folder = root.join(family);
     let listing = fs::read_dir(&folder)
         .unwrap_or_else(|why| panic!("no fixtures in {}: {why}; set INROADS_FIXTURES", folder.display()));
