@@ -6,12 +6,11 @@
 use std::sync::Arc;
 
 use inroads_agents::{
-    Encoder, Flat,
+    Encoder, Flat, Pace,
     classify::{Nearest, Svm, SvmConfig},
     ddpg::{Ddpg, DdpgConfig},
     dqn::{DqnConfig, GrowingDqn, Loss},
     encode::{Scaled, Select},
-    flat::Pace,
     nets::Backend,
     noise::NoiseConfig,
     tabular::{TabularConfig, TabularQ},
@@ -258,7 +257,8 @@ impl DscConfig {
         named("policy", self.policy.check())?;
         named("chain", self.chain.check())?;
         named("initiation.svm", self.initiation.svm.check().map_err(|e| e.to_string()))?;
-        named("over_options", self.over_options.check())
+        named("over_options", self.over_options.check())?;
+        named("exploration", self.exploration.check())
     }
 }
 
@@ -272,7 +272,8 @@ impl FlatDdpgConfig {
 impl TabularDscConfig {
     fn check(&self) -> Result<(), ConfigError> {
         named("memory", self.memory.check())?;
-        named("chain", self.chain.check())
+        named("chain", self.chain.check())?;
+        named("exploration", self.exploration.check())
     }
 }
 

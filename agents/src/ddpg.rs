@@ -133,7 +133,7 @@ impl<O> Ddpg<O> {
         self.updates
     }
 
-    /// A clone that begins its own exploration: a new option's learner.
+    /// A clone of what was learned that begins its own exploration.
     pub fn fork(&self) -> Self {
         let config = DdpgConfig { noise: self.config.fork_noise, ..self.config.clone() };
         Self { config, updates: 0, ..self.clone() }

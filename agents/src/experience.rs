@@ -96,11 +96,6 @@ impl<O, A> Experience<O, A> {
     pub fn numbers(&self) -> Range<u64> {
         self.first..self.first + self.episodes.len() as u64
     }
-
-    /// Steps in all episodes that are here.
-    pub fn steps(&self) -> usize {
-        self.steps
-    }
 }
 
 /// What a lesson teaches.

@@ -1,27 +1,10 @@
 //! A learner alone as an agent: every flat baseline.
 
 use crate::{
-    Actor, Agent, Bag, Checkpoint, Clip, Context, Corrupt, Experience, Learner, Lesson, Memory, Replay,
+    Actor, Agent, Bag, Checkpoint, Clip, Context, Corrupt, Experience, Learner, Lesson, Memory, Pace, Replay,
     Transition, experience::Aim,
 };
 use serde::{Serialize, de::DeserializeOwned};
-
-/// How much a learner learns from how much experience.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pace {
-    /// Minibatch updates a step of the environment; below one, an update every few steps.
-    pub updates_per_step: f32,
-    /// Steps in the replay before the first update.
-    pub warm_up: usize,
-}
-
-impl Pace {
-    /// Updates that are due after step number `step` (counted from 1) of a learner.
-    pub fn due(&self, step: u64) -> u64 {
-        let upto = |s: u64| (s as f64 * f64::from(self.updates_per_step)) as u64;
-        upto(step) - upto(step.saturating_sub(1))
-    }
-}
 
 /// A learner that acts on its own, on the task's reward.
 pub struct Flat<O, A, L> {
@@ -46,11 +29,6 @@ impl<O: Clone, A: Clone, L: Learner<O, A>> Flat<O, A, L> {
             updates: 0,
             memory: Memory::new(),
         }
-    }
-
-    /// The learner.
-    pub fn learner(&self) -> &L {
-        &self.learner
     }
 }
 

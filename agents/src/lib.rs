@@ -12,6 +12,7 @@ pub mod experience;
 pub mod flat;
 pub mod nets;
 pub mod noise;
+mod pace;
 pub mod svm;
 pub mod tabular;
 
@@ -20,6 +21,7 @@ pub use encode::Encoder;
 pub use episode::{Summary, episode};
 pub use experience::{Clip, Experience, Lesson, Replay};
 pub use flat::Flat;
+pub use pace::Pace;
 pub use tabular::TabularQ;
 
 use inroads_envs::{End, Rng, Seed};

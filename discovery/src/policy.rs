@@ -1,7 +1,7 @@
 //! Option policies (3.1.1).
 
 use inroads_agents::{
-    Bag, Checkpoint, Clip, Context, Corrupt, Experience, Learner, Lesson, Memory, Replay, flat::Pace,
+    Bag, Checkpoint, Clip, Context, Corrupt, Experience, Learner, Lesson, Memory, Pace, Replay,
 };
 
 use crate::SkillId;

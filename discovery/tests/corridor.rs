@@ -10,8 +10,7 @@
 use std::sync::Arc;
 
 use inroads_agents::{
-    Actor, Agent, Context, TabularQ, classify::Nearest, encode::Select, episode, flat::Pace,
-    tabular::TabularConfig,
+    Actor, Agent, Context, Pace, TabularQ, classify::Nearest, encode::Select, episode, tabular::TabularConfig,
 };
 use inroads_discovery::{
     Binary, ChainConfig, Chaining, Hierarchy, PerSkill, Skilled,

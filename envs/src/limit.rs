@@ -18,11 +18,6 @@ impl<E: Environment> TimeLimit<E> {
         let spec = Spec { time_limit: Some(limit), ..inner.spec().clone() };
         Self { inner, spec, limit, taken: 0, over: true }
     }
-
-    /// The environment inside.
-    pub fn inner(&self) -> &E {
-        &self.inner
-    }
 }
 
 impl<E: Environment> Environment for TimeLimit<E> {

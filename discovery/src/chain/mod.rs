@@ -72,11 +72,6 @@ impl<O: AsRef<[f32]> + Clone, I: Initiation<O>, P, Q: PolicyOverSkills<O>> Chain
         self.repertoire.skills()
     }
 
-    /// The policy over options.
-    pub fn over_skills(&self) -> &Q {
-        &self.over
-    }
-
     /// Whether a skill's set has become a salient event that other skills may aim at.
     fn salient(&self, k: SkillId) -> bool {
         match self.config.chain_at {

@@ -77,6 +77,19 @@ impl Default for Epsilon {
 }
 
 impl Epsilon {
+    /// What is wrong with these values, if anything.
+    ///
+    /// # Errors
+    /// A sentence that names the setting and the fix.
+    pub fn check(&self) -> Result<(), String> {
+        for (name, share) in [("start", self.start), ("end", self.end)] {
+            if !(0.0..=1.0).contains(&share) {
+                return Err(format!("{name} is {share}; a share of random choices lies in [0, 1]"));
+            }
+        }
+        Ok(())
+    }
+
     /// The share of random choices after `decisions` decisions.
     pub fn at(&self, decisions: u64) -> f32 {
         let progress = (decisions as f32 / self.decisions.max(1) as f32).min(1.0);
