@@ -242,7 +242,7 @@ mod tests {
     fn walking_straight_ahead_reaches_the_end_of_the_corridor() {
         let mut maze = corridor();
         maze.restore(PointState::default()).unwrap();
-        for _ in 0..11 {
+        for _ in 0..7 {
             assert_eq!(maze.step(&vec![1.0, 0.0]), Ok(Step { reward: -1.0, end: None }));
         }
         let last = maze.step(&vec![1.0, 0.0]).unwrap();
