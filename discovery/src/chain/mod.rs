@@ -15,6 +15,8 @@ mod skill;
 pub use config::{ChainAt, ChainConfig, Lessons, OptionReward};
 pub use skill::{Phase, Skill};
 
+use std::ops::Range;
+
 use inroads_agents::{
     Actor, Checkpoint, Context, Experience, Lesson, Memory, Transition, checkpoint, experience::Aim,
 };
@@ -135,7 +137,7 @@ impl<O: AsRef<[f32]> + Clone, I: Initiation<O>, P, Q: PolicyOverSkills<O>> Chain
     {
         if self.config.lessons == Lessons::All {
             for k in self.repertoire.learned() {
-                self.teach(k, number, all);
+                self.teach(k, number, 0..all.length(number), all);
             }
         }
         let Some(gestation) = self.gestate(number, all) else { return };
@@ -148,20 +150,20 @@ impl<O: AsRef<[f32]> + Clone, I: Initiation<O>, P, Q: PolicyOverSkills<O>> Chain
         self.policy.born(k);
         self.over.grow(&triggers);
         for past in all.numbers() {
-            self.teach(k, past, all);
+            self.teach(k, past, 0..all.length(past), all);
         }
         self.policy.practise(k, u64::from(self.config.pretrain), all, ctx);
     }
 
-    /// Gives skill `k` all lessons of an episode.
-    fn teach<A>(&mut self, k: SkillId, number: u64, all: &Experience<O, A>)
+    /// Gives skill `k` the lessons of some steps of an episode.
+    fn teach<A>(&mut self, k: SkillId, number: u64, steps: Range<u32>, all: &Experience<O, A>)
     where
         P: SkillPolicy<O, A>,
     {
         let Some(episode) = all.episode(number) else { return };
         let subgoal = self.repertoire.skill(k).subgoal;
         let reward = self.config.option_reward;
-        for lesson in self.repertoire.lessons(subgoal, number, episode, 0..all.length(number), reward) {
+        for lesson in self.repertoire.lessons(subgoal, number, episode, steps, reward) {
             self.policy.lesson(k, lesson);
         }
     }
@@ -242,14 +244,8 @@ where
         let k = out.call.skill;
         self.repertoire.executed(k, out.episode, out.steps.end, out.stop == Stop::Reached);
         self.decided(out, all, ctx);
-        if let (true, Lessons::Own, Some(episode)) =
-            (k != SkillId::GLOBAL, self.config.lessons, all.episode(out.episode))
-        {
-            let (subgoal, reward) = (self.repertoire.skill(k).subgoal, self.config.option_reward);
-            let steps = out.steps.clone();
-            for lesson in self.repertoire.lessons(subgoal, out.episode, episode, steps, reward) {
-                self.policy.lesson(k, lesson);
-            }
+        if k != SkillId::GLOBAL && self.config.lessons == Lessons::Own {
+            self.teach(k, out.episode, out.steps.clone(), all);
         }
         self.refine(out, all);
         if out.end.is_some() {
