@@ -2,4 +2,9 @@
 //!
 //! This room knows geometry and physics, and nothing of rewards, episodes or tensors.
 
+pub mod math;
 pub mod rigid;
+mod shape;
+pub mod view;
+
+pub use shape::Shape;

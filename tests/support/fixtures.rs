@@ -3,6 +3,8 @@
 //! Include it with `#[path = "../../tests/support/fixtures.rs"] mod fixtures;`. The records lie in the folder
 //! that `INROADS_FIXTURES` names, by default `tests/fixtures` of the repository, one folder a family.
 
+#![allow(dead_code, reason = "no test reads both records and documents")]
+
 use std::{
     fs,
     io::Read,
@@ -17,10 +19,7 @@ use serde_json::Value;
 /// # Panics
 /// When there is none, or a file cannot be read: a conformance test that compares nothing has not passed.
 pub(crate) fn records(family: &str, prefix: &str) -> Vec<Value> {
-    let named = std::env::var_os("INROADS_FIXTURES").unwrap_or_else(|| "tests/fixtures".into());
-    // Tests run in the folder of their crate; a relative name is meant from the repository's.
-    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join(named);
-    let folder = root.join(family);
+    let folder = folder(family);
     let listing = fs::read_dir(&folder)
         .unwrap_or_else(|why| panic!("no fixtures in {}: {why}; set INROADS_FIXTURES", folder.display()));
     let mut files: Vec<_> = listing
@@ -38,6 +37,23 @@ pub(crate) fn records(family: &str, prefix: &str) -> Vec<Value> {
         folder.display()
     );
     records
+}
+
+/// A family's document `name`, which is one JSON value.
+///
+/// # Panics
+/// When it is not there or cannot be read.
+pub(crate) fn document(family: &str, name: &str) -> Value {
+    let path = folder(family).join(name);
+    let text = fs::read(&path)
+        .unwrap_or_else(|why| panic!("no fixture {}: {why}; set INROADS_FIXTURES", path.display()));
+    serde_json::from_slice(&text).unwrap_or_else(|why| panic!("{}: {why}", path.display()))
+}
+
+fn folder(family: &str) -> PathBuf {
+    let named = std::env::var_os("INROADS_FIXTURES").unwrap_or_else(|| "tests/fixtures".into());
+    // Tests run in the folder of their crate; a relative name is meant from the repository's.
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join(named).join(family)
 }
 
 fn read(path: &PathBuf) -> Vec<Value> {

@@ -22,6 +22,7 @@ pub struct CellMap {
     origin: [usize; 2],
     starts: Vec<[f64; 2]>,
     goals: Vec<[f64; 2]>,
+    keys: Vec<[f64; 2]>,
 }
 
 /// Why a text is not a map. Lines and columns count from 1.
@@ -30,7 +31,7 @@ pub enum MapError {
     /// A character that means nothing.
     #[error(
         "map line {line}, column {column}: {found:?} is no cell; use # or 1 for a wall, 0, . or a space for free, \
-         r for a start, g for a goal"
+         r for a start, g for a goal, k for a key"
     )]
     Unknown {
         /// Its line.
@@ -67,8 +68,8 @@ pub enum MapError {
 }
 
 impl CellMap {
-    /// Reads a map, one row a line: `#` or `1` wall; `0`, `.` or space free; `r` start; `g` goal. `scale` is
-    /// the side of a cell in metres.
+    /// Reads a map, one row a line: `#` or `1` wall; `0`, `.` or space free; `r` start; `g` goal; `k` key.
+    /// `scale` is the side of a cell in metres.
     ///
     /// # Errors
     /// [`MapError`] says what is wrong and where.
@@ -77,7 +78,7 @@ impl CellMap {
             return Err(MapError::Scale(scale));
         }
         let columns = text.lines().next().map_or(0, |row| row.chars().count());
-        let (mut walls, mut starts, mut goals) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut walls, mut starts, mut goals, mut keys) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for (row, cells) in text.lines().enumerate() {
             let length = cells.chars().count();
             if length != columns {
@@ -89,6 +90,7 @@ impl CellMap {
                 match found {
                     'r' => starts.push([row, column]),
                     'g' => goals.push([row, column]),
+                    'k' => keys.push([row, column]),
                     '#' | '1' | '0' | '.' | ' ' => {}
                     _ => return Err(MapError::Unknown { line: row + 1, column: column + 1, found }),
                 }
@@ -99,10 +101,10 @@ impl CellMap {
         let Some(&origin) = starts.first() else {
             return Err(MapError::NoStart { lines: walls.len(), columns });
         };
-        let centre = |cell: [usize; 2]| centre(cell, origin, scale);
-        let (starts, goals) =
-            (starts.into_iter().map(centre).collect(), goals.into_iter().map(centre).collect());
-        Ok(Self { scale, walls, origin, starts, goals })
+        let centres =
+            |cells: Vec<[usize; 2]>| cells.into_iter().map(|cell| centre(cell, origin, scale)).collect();
+        let [starts, goals, keys] = [starts, goals, keys].map(centres);
+        Ok(Self { scale, walls, origin, starts, goals, keys })
     }
 
     /// The side of a cell, metres.
@@ -118,6 +120,19 @@ impl CellMap {
     /// The centres of the goal cells, in reading order.
     pub fn goals(&self) -> &[[f64; 2]] {
         &self.goals
+    }
+
+    /// The centres of the cells in which a key lies, in reading order.
+    pub fn keys(&self) -> &[[f64; 2]] {
+        &self.keys
+    }
+
+    /// Line and column, from 1, of the first free cell at the map's edge: where a body could leave it.
+    pub fn opening(&self) -> Option<[usize; 2]> {
+        let [bottom, right] = [self.walls.len() - 1, self.walls[0].len() - 1];
+        let at_edge =
+            |[row, column]: &[usize; 2]| *row == 0 || *column == 0 || *row == bottom || *column == right;
+        self.free().find(at_edge).map(|[row, column]| [row + 1, column + 1])
     }
 
     /// The centres of all cells that are not walls, in reading order.
@@ -144,7 +159,12 @@ impl CellMap {
 
     /// Whether a wall may lie nearer than `reach` metres: false is certain, true is not.
     pub fn may_touch_wall(&self, at: [f64; 2], reach: f64) -> bool {
-        let (low, high) = (at.map(|x| x - reach), at.map(|x| x + reach));
+        self.may_meet_wall(at, [reach; 2])
+    }
+
+    /// Whether a wall may meet the rectangle about a point with these half sizes: false is certain, true is not.
+    pub fn may_meet_wall(&self, at: [f64; 2], half: [f64; 2]) -> bool {
+        let (low, high) = ([at[0] - half[0], at[1] - half[1]], [at[0] + half[0], at[1] + half[1]]);
         let outline = self.outline();
         !(outline.surrounds(low) && outline.surrounds(high)) || self.walls_about(low, high).next().is_some()
     }
@@ -272,7 +292,16 @@ mod tests {
         let map = u_maze();
         assert!(!map.may_touch_wall([0.0, 0.0], 1.9) && map.may_touch_wall([0.0, 0.0], 2.1));
         assert!(map.may_touch_wall([7.0, 1.0], 1.5) && !map.may_touch_wall([7.0, 1.0], 0.9));
+        assert!(map.may_meet_wall([7.0, 1.0], [0.1, 1.5]) && !map.may_meet_wall([7.0, 1.0], [0.9, 0.9]));
         assert!(map.may_touch_wall([100.0, 0.0], 0.1) && map.may_touch_wall([f64::NAN, 0.0], 0.1));
+    }
+
+    #[test]
+    fn keys_and_openings_are_found() {
+        let map = CellMap::parse("#####\n#rkg.\n#####", 2.0).unwrap();
+        assert_eq!((map.keys(), map.goals()), (&[[2.0, 0.0]][..], &[[4.0, 0.0]][..]));
+        assert_eq!((map.opening(), u_maze().opening()), (Some([2, 5]), None));
+        assert!(!map.is_wall([2.0, 0.0]), "a key lies in a free cell");
     }
 
     #[test]

@@ -9,6 +9,10 @@ use rapier3d::prelude::*;
 
 use super::arena::{Arena, DT};
 use super::{CellMap, walls};
+use crate::{
+    Shape, math,
+    view::{Colour, Solid},
+};
 
 /// Greatest displacement of one action, metres, forwards or backwards.
 pub const MAX_FORWARD: f64 = 1.0;
@@ -33,9 +37,8 @@ const NOSE: Vector = Vector::new(0.5, 0.1, 0.1);
 const NOSE_AHEAD: f32 = 0.6;
 /// Density of ball and nose, kg/m³.
 const DENSITY: f32 = 100.0;
-/// No part of the robot is farther from its centre (1.105 m), nor does Rapier look for contacts farther ahead
-/// than the rest of this, metres.
-const REACH: f64 = 1.25;
+/// Rapier looks for contacts less far ahead of the robot's surface than this, metres.
+const LOOKOUT: f64 = 0.1;
 
 /// Everything that the robot's future depends on, besides the map and the actions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -110,10 +113,13 @@ pub struct PointRobot {
 }
 
 impl PointRobot {
+    /// Radius of its ball, metres.
+    pub const RADIUS: f32 = RADIUS;
+
     /// A robot at rest at the map's first start.
     pub fn new(map: CellMap) -> Self {
         let mut world = Arena::empty();
-        if let Some(walls) = walls::collider(&map, RADIUS) {
+        if let Some(walls) = walls::collider(&map, RADIUS, map.scale() as f32) {
             world.insert_collider(walls, None);
         }
         let body = world.insert_body(
@@ -153,6 +159,18 @@ impl PointRobot {
         Ok(())
     }
 
+    /// What it looks like, in the colours of its ball and its nose.
+    pub fn solids(&self, [ball, nose]: [Colour; 2]) -> [Solid; 2] {
+        let PointState { x, y, theta, .. } = self.state;
+        let turn = Rotation::from_rotation_z(theta.rem_euclid(std::f64::consts::TAU) as f32);
+        let pose = Pose::from_parts(Vector::new(x as f32, y as f32, RADIUS), turn);
+        let ahead = pose * Pose::from_translation(Vector::X * NOSE_AHEAD);
+        [
+            Solid { shape: Shape::Ball { radius: RADIUS }, pose, colour: ball },
+            Solid { shape: Shape::Cuboid { half: NOSE }, pose: ahead, colour: nose },
+        ]
+    }
+
     /// Turns by `turn` radians, then moves by `forward` metres, then lets 0.02 s pass.
     ///
     /// # Errors
@@ -166,8 +184,8 @@ impl PointRobot {
         let old = self.state;
         let theta = old.theta + turn;
         let pushed = PointState {
-            x: old.x + theta.cos() * forward,
-            y: old.y + theta.sin() * forward,
+            x: old.x + math::cos(theta) * forward,
+            y: old.y + math::sin(theta) * forward,
             theta,
             vx: old.vx * KEPT,
             vy: old.vy * KEPT,
@@ -193,13 +211,26 @@ impl PointRobot {
             theta: from.theta + from.omega * dt,
             ..from
         };
-        if self.shortcut && !self.map.may_touch_wall(from.at(), REACH) {
+        if self.shortcut && !self.may_touch_wall(&from) {
             return Ok((drifted, 0));
         }
         match self.collide(from)? {
             (_, 0) => Ok((drifted, 0)),
             contact => Ok(contact),
         }
+    }
+
+    /// Whether a wall may lie so near ball or nose that Rapier finds a contact: false is certain, true is not.
+    fn may_touch_wall(&self, from: &PointState) -> bool {
+        let ball = f64::from(RADIUS) + LOOKOUT;
+        if self.map.may_touch_wall(from.at(), ball) {
+            return true;
+        }
+        let (sin, cos) = (math::sin(from.theta), math::cos(from.theta));
+        let [ahead, long, wide] = [NOSE_AHEAD, NOSE.x, NOSE.y].map(f64::from);
+        let middle = [from.x + cos * ahead, from.y + sin * ahead];
+        let (cos, sin) = (cos.abs(), sin.abs());
+        self.map.may_meet_wall(middle, [cos * long + sin * wide + LOOKOUT, sin * long + cos * wide + LOOKOUT])
     }
 
     /// One physics step by Rapier, and the number of contact points in it.
@@ -228,7 +259,7 @@ impl PointRobot {
         let to = PointState {
             x: from.x + f64::from(moved.x),
             y: from.y + f64::from(moved.y),
-            theta: from.theta + 2.0 * f64::from(turned.z).atan2(f64::from(turned.w)),
+            theta: from.theta + 2.0 * math::atan2(f64::from(turned.z), f64::from(turned.w)),
             vx: f64::from(velocity.x),
             vy: f64::from(velocity.y),
             omega: f64::from(body.angvel().z),
@@ -247,7 +278,7 @@ impl PointRobot {
 
 /// Enforces [`MAX_SPEED`] and [`MAX_SPIN`].
 fn slowed(state: PointState) -> PointState {
-    let speed = state.vx.hypot(state.vy);
+    let speed = math::hypot(state.vx, state.vy);
     let share = if speed > MAX_SPEED { MAX_SPEED / speed } else { 1.0 };
     PointState {
         vx: state.vx * share,
@@ -331,7 +362,7 @@ mod tests {
         let mut spared = 0;
         for _ in 0..20_000 {
             let (forward, turn) = (number(), 0.25 * number());
-            spared += usize::from(!short.map.may_touch_wall(short.state.at(), REACH));
+            spared += usize::from(!short.may_touch_wall(&short.state()));
             assert_eq!(short.step(forward, turn), long.step(forward, turn));
             assert_eq!(bits(short.state()), bits(long.state()));
         }

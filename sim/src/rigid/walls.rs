@@ -4,10 +4,10 @@ use rapier3d::prelude::*;
 
 use super::{CellMap, Rectangle};
 
-/// One compound of boxes, or nothing when the map has no walls. The boxes stand well above and below a robot
-/// at height `z`, so that no robot is ever pushed out over the top.
-pub(super) fn collider(map: &CellMap, z: f32) -> Option<ColliderBuilder> {
-    let boxes: Vec<_> = map.walls().iter().map(|wall| upright(wall, z, map.scale() as f32)).collect();
+/// One compound of boxes from `half_height` below `z` to as much above it, or nothing when the map has no walls.
+/// They should stand well above and below a robot, so that none is ever pushed out over the top.
+pub(super) fn collider(map: &CellMap, z: f32, half_height: f32) -> Option<ColliderBuilder> {
+    let boxes: Vec<_> = map.walls().iter().map(|wall| upright(wall, z, half_height)).collect();
     // Friction 1 is that of the point robot's model file in rllab.
     (!boxes.is_empty()).then(|| ColliderBuilder::compound(boxes).friction(1.0))
 }

@@ -1,0 +1,24 @@
+//! Random numbers for tests.
+
+/// Numbers from a seed (splitmix64).
+pub(crate) struct Numbers(u64);
+
+impl Numbers {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// Uniform in [-1, 1).
+    pub(crate) fn uniform(&mut self) -> f32 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 40) as f32 / (1_u64 << 23) as f32 - 1.0
+    }
+
+    /// Normal with variance 1: the sum of twelve uniform numbers is near enough.
+    pub(crate) fn normal(&mut self) -> f32 {
+        (0..12).map(|_| self.uniform() / 2.0).sum()
+    }
+}
