@@ -6,7 +6,8 @@
 use std::{fs, path::Path};
 
 use inroads_agents::nets::Backend;
-use inroads_envs::registry::nearest;
+use inroads_envs::registry::{MakeError, Options, nearest};
+use inroads_sim::rigid::Model;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use toml::{Table, Value};
 
@@ -70,6 +71,9 @@ pub enum ConfigError {
     /// An argument of `--set` without a value.
     #[error("`--set {0}` has no value; write `--set key=value`")]
     NoValue(String),
+    /// A map or a body that makes no world.
+    #[error("{0}")]
+    World(String),
     /// A name that is in no registry.
     #[error("{0}")]
     UnknownName(String),
@@ -95,6 +99,20 @@ pub struct Settings {
     pub evaluation_episodes: u64,
     /// A checkpoint is written every so many episodes.
     pub checkpoint_every: u64,
+    /// What is another in the environment than the registry has it.
+    pub world: World,
+}
+
+/// A maze and a body of the user's own. They stand here as text, so that a run's folder needs no other file.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct World {
+    /// The maze as a text map; empty for the environment's own.
+    pub map: String,
+    /// The side of a cell, metres; 0 for the environment's own.
+    pub scale: f64,
+    /// The body as MJCF; empty for the environment's own.
+    pub body: String,
 }
 
 /// A whole configuration, checked.
@@ -104,6 +122,30 @@ pub struct Config {
     pub settings: Settings,
     /// The agent's tables.
     pub agent: Table,
+}
+
+impl World {
+    /// Asks the registry with what is set here.
+    ///
+    /// # Errors
+    /// [`ConfigError`] when the body cannot be read, or as the registry answers.
+    pub fn with_options<T>(
+        &self,
+        ask: impl FnOnce(&Options<'_>) -> Result<T, MakeError>,
+    ) -> Result<T, ConfigError> {
+        let body = (!self.body.is_empty()).then(|| Model::from_mjcf(&self.body)).transpose();
+        let body = body.map_err(|why| ConfigError::World(why.to_string()))?;
+        let options = Options {
+            map: (!self.map.is_empty()).then_some(self.map.as_str()),
+            scale: (self.scale != 0.0).then_some(self.scale),
+            body: body.as_ref(),
+            ..Options::default()
+        };
+        ask(&options).map_err(|why| match why {
+            MakeError::Unknown(unknown) => ConfigError::UnknownName(unknown.to_string()),
+            other => ConfigError::World(other.to_string()),
+        })
+    }
 }
 
 impl Config {
@@ -122,6 +164,7 @@ impl Config {
             max_steps: 0,
             evaluation_episodes: 20,
             checkpoint_every: 25,
+            world: World::default(),
         };
         Ok(Self { settings, agent: (entry.defaults)() })
     }

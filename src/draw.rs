@@ -5,6 +5,7 @@ use std::path::Path;
 use inroads_envs::{maze::Picture, registry};
 
 use crate::{
+    config::Settings,
     figures::{self, Map, Panel, Pose, Raster, Rect, Series, SetPicture, Trajectory},
     run::{Run, RunError},
     session::{EpisodeMetrics, Watched},
@@ -28,8 +29,10 @@ pub struct View {
 
 impl View {
     /// The view of an environment; none where there is no map.
-    pub fn of(environment: &str) -> Option<Self> {
-        let picture = registry::picture(environment)?;
+    pub fn of(settings: &Settings) -> Option<Self> {
+        let picture =
+            settings.world.with_options(|options| registry::picture_with(&settings.environment, options));
+        let picture = picture.ok()??;
         let point = |p: [f64; 2]| [p[0] as f32, p[1] as f32];
         let rect = |r: &inroads_envs::maze::Rectangle| Rect { min: point(r.low), max: point(r.high) };
         let free = rect(&picture.bounds);
@@ -64,7 +67,7 @@ impl View {
 pub fn figures(run: &Run, frozen: &[Watched]) -> Result<(), RunError> {
     let folder = run.folder.figures();
     curves(std::slice::from_ref(run), &folder.join("learning-curve.png"))?;
-    let Some(view) = View::of(&run.config.settings.environment) else { return Ok(()) };
+    let Some(view) = View::of(&run.config.settings) else { return Ok(()) };
     let skills = run.session.skills();
     if !skills.is_empty() {
         let pictures: Vec<_> = skills
@@ -158,14 +161,19 @@ pub fn curves(runs: &[Run], path: &Path) -> Result<(), RunError> {
 /// [`RunError`] when the environment has no map, or the file cannot be written.
 pub fn movie(run: &Run, watched: &Watched, path: &Path) -> Result<(), RunError> {
     let environment = &run.config.settings.environment;
-    let view = View::of(environment).ok_or_else(|| RunError::NoMap(environment.clone()))?;
+    let view = View::of(&run.config.settings).ok_or_else(|| RunError::NoMap(environment.clone()))?;
     let every = watched.path.len().div_ceil(300);
     let poses: Vec<_> = watched
         .path
         .iter()
         .enumerate()
         .filter(|(step, _)| step % every == 0 || step + 1 == watched.path.len())
-        .map(|(step, (s, skill))| Pose { step, at: [s[0], s[1]], heading: s[2], skill: *skill })
+        .map(|(step, (s, skill))| Pose {
+            step,
+            at: [s[0], s[1]],
+            heading: view.picture.heading(s),
+            skill: *skill,
+        })
         .collect();
     figures::movie(path, &view.map, &poses)?;
     Ok(())

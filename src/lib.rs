@@ -18,6 +18,7 @@ pub mod cli;
 pub mod config;
 pub mod draw;
 pub mod figures;
+pub mod film;
 pub mod prelude;
 pub mod run;
 pub mod session;

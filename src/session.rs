@@ -2,12 +2,15 @@
 
 use inroads_agents::{Actor, Bag, Context, Corrupt, Summary, episode};
 use inroads_discovery::SkillRecord;
-use inroads_envs::{Environment, Refused, Seed, Spec, registry::AnyEnvironment};
+use inroads_envs::{
+    Environment, Refused, Seed, Spec,
+    registry::{self, AnyEnvironment},
+};
 use serde::{Deserialize, Serialize};
 
 use crate::{
     assembly::{self, AGENTS, BoxedAgent, Build, Vector},
-    config::{Config, ConfigError},
+    config::{Config, ConfigError, Settings, World},
 };
 
 /// One line of `metrics.jsonl`: a training episode. No times: the same seed writes the same lines.
@@ -30,6 +33,30 @@ pub struct EpisodeMetrics {
     pub skill_steps: u32,
     /// Updates made so far, by network.
     pub updates: std::collections::BTreeMap<String, u64>,
+    /// Why the simulator gave up on the episode, when it did; it was truncated then.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fault: Option<String>,
+}
+
+/// An action of any kind.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// Numbers.
+    Vector(Vector),
+    /// One of several choices.
+    Choice(usize),
+}
+
+impl From<Vector> for Action {
+    fn from(action: Vector) -> Self {
+        Self::Vector(action)
+    }
+}
+
+impl From<usize> for Action {
+    fn from(action: usize) -> Self {
+        Self::Choice(action)
+    }
 }
 
 /// A watched episode, for pictures.
@@ -38,6 +65,10 @@ pub struct Watched {
     /// Every observation, and the skill that acted there (0: a primitive action); the last one's is the one
     /// before's.
     pub path: Vec<(Vector, usize)>,
+    /// The seed that the episode began with.
+    pub start: u64,
+    /// What was done; with the seed it is the whole episode.
+    pub actions: Vec<Action>,
     /// What it came to.
     pub summary: Summary,
 }
@@ -101,12 +132,26 @@ pub trait Session {
 /// # Errors
 /// [`ConfigError`] when a name is unknown, or the agent cannot act in the environment.
 pub fn build(config: &Config) -> Result<Box<dyn Session>, ConfigError> {
-    let settings = &config.settings;
-    let unknown = |e: inroads_envs::registry::Unknown| ConfigError::UnknownName(e.to_string());
-    match inroads_envs::registry::make(&settings.environment).map_err(unknown)? {
+    match environment(&config.settings)? {
         AnyEnvironment::Vectors(env) => continuous(env, config),
         AnyEnvironment::Choices(env) => discrete(env, config),
     }
+}
+
+/// Builds the environment of a run.
+///
+/// # Errors
+/// As [`world`].
+pub fn environment(settings: &Settings) -> Result<AnyEnvironment, ConfigError> {
+    world(&settings.environment, &settings.world)
+}
+
+/// Builds an environment of the registry with a map, scale or body of the user's own.
+///
+/// # Errors
+/// [`ConfigError`] when there is no such environment, or the map or body is at fault.
+pub fn world(name: &str, own: &World) -> Result<AnyEnvironment, ConfigError> {
+    own.with_options(|options| registry::make_with(name, options))
 }
 
 /// Builds the session of an environment of your own, with continuous actions.
@@ -130,7 +175,7 @@ pub fn discrete(env: BoxedEnvironment<usize>, config: &Config) -> Result<Box<dyn
 /// An environment with actions of type `A`.
 pub type BoxedEnvironment<A> = Box<dyn Environment<Observation = Vector, Action = A> + Send>;
 
-fn pair<A: Clone + 'static>(
+fn pair<A: Clone + Into<Action> + 'static>(
     env: BoxedEnvironment<A>,
     build: Option<Build<A>>,
     config: &Config,
@@ -159,7 +204,7 @@ struct Pair<A> {
     env_steps: u64,
 }
 
-impl<A: Clone> Session for Pair<A> {
+impl<A: Clone + Into<Action>> Session for Pair<A> {
     fn spec(&self) -> &Spec {
         self.env.spec()
     }
@@ -183,6 +228,7 @@ impl<A: Clone> Session for Pair<A> {
             skills: self.agent.skills().len(),
             skill_steps,
             updates: self.agent.updates().into_iter().map(|(name, n)| (name.to_owned(), n)).collect(),
+            fault: summary.fault,
         })
     }
 
@@ -198,7 +244,7 @@ impl<A: Clone> Session for Pair<A> {
         let Some(mut actor) = actor else { return Ok(None) };
         let mut ctx = Context::evaluation(self.seed, index);
         let start = self.seed.number("evaluate-start", index);
-        let mut path = Vec::new();
+        let (mut path, mut actions) = (Vec::new(), Vec::new());
         let summary = episode(&mut *self.env, &mut *actor, start, &mut ctx, |t, source| {
             if path.is_empty() {
                 path.push((t.before.clone(), source));
@@ -207,8 +253,9 @@ impl<A: Clone> Session for Pair<A> {
                 *skill = source;
             }
             path.push((t.after.clone(), source));
+            actions.push(t.action.clone().into());
         })?;
-        Ok(Some(Watched { path, summary }))
+        Ok(Some(Watched { path, start, actions, summary }))
     }
 
     fn skills(&self) -> Vec<SkillRecord> {

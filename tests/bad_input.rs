@@ -30,6 +30,26 @@ fn an_agent_that_cannot_act_there_is_answered_with_those_that_can() {
 }
 
 #[test]
+fn a_malformed_map_or_body_is_named_with_its_place() {
+    let folder = Folder::new("world");
+    let file = folder.join("file");
+    let path = file.to_str().unwrap();
+    fs::write(&file, "#####\n#r?g#\n#####").unwrap();
+    let text = refused(&["ddpg", "point-maze", "--map", path]);
+    assert!(text.contains("line 2, column 3") && text.contains("'?'"), "{text}");
+    fs::write(&file, "#####\n#r.g#\n#####").unwrap();
+    let text = refused(&["ddpg", "point-maze", "--map", path, "--scale", "0.2"]);
+    assert!(text.contains("0.2"), "{text}");
+    let text = refused(&["ddpg", "reacher", "--map", path]);
+    assert!(text.contains("`reacher` takes no option `map`"), "{text}");
+    fs::write(&file, "<mujoco>\n<worldbody>\n<body></bdy></worldbody></mujoco>").unwrap();
+    let text = refused(&["ddpg", "ant-u-maze", "--body", path]);
+    assert!(text.contains("line 3"), "{text}");
+    let text = refused(&["ddpg", "ant-u-maze", "--body", folder.join("none").to_str().unwrap()]);
+    assert!(text.contains("none"), "{text}");
+}
+
+#[test]
 fn an_unknown_key_is_answered_with_the_nearest() {
     let text = refused(&["dsc", "point-maze", "--set", "chain.gestatoin=3"]);
     assert!(text.contains("`chain.gestatoin`") && text.contains("`chain.gestation`"), "{text}");

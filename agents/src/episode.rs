@@ -5,7 +5,7 @@ use inroads_envs::{End, Environment, Refused, Step};
 use crate::{Actor, Context, Transition};
 
 /// What an episode came to.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
     /// Steps taken.
     pub steps: u32,
@@ -15,6 +15,8 @@ pub struct Summary {
     pub end: End,
     /// Whether the task was done ([`Spec::succeeded`](inroads_envs::Spec::succeeded)).
     pub success: bool,
+    /// Why the simulator gave up on it, when it did ([`Environment::fault`]).
+    pub fault: Option<String>,
 }
 
 /// Plays the episode that `seed` names. `watch` sees every transition after the actor has, and which part of
@@ -46,7 +48,8 @@ pub fn episode<E: Environment + ?Sized>(
         watch(&transition, source);
         if let Some(end) = end {
             let success = env.spec().succeeded(&Step { reward, end: Some(end) });
-            return Ok(Summary { steps, reward: total, end, success });
+            let fault = env.fault().map(str::to_owned);
+            return Ok(Summary { steps, reward: total, end, success, fault });
         }
         std::mem::swap(&mut before, &mut after);
     }

@@ -280,7 +280,9 @@ where
         }
         trace.push((look(env, seed, step)?, answer.reward, answer.end));
         let last = limit == Some(step);
-        if matches!((answer.end, last), (Some(End::Truncated), false) | (None, true)) {
+        // A simulator that gives up truncates before the limit.
+        let early = answer.end == Some(End::Truncated) && !last && env.fault().is_none();
+        if early || answer.end.is_none() && last {
             return Err(Fault::Limit { seed, step, end: answer.end, limit });
         }
         if answer.end.is_some() {

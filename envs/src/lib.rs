@@ -5,16 +5,24 @@
 //! in its [`Spec`], never a method, so agents compile once for each kind of observation and action rather
 //! than once for each domain.
 
+mod capability;
 pub mod check;
 pub mod corridor;
-pub mod dense;
+mod goals;
 pub mod limit;
+pub mod manipulation;
 pub mod maze;
+pub mod reacher;
 pub mod registry;
+mod render;
 mod rng;
 mod spec;
+pub mod vector;
 
+pub use capability::{Limited, Snapshot, Sweep};
+pub use goals::{GoalError, Goals, Pay};
 pub use limit::TimeLimit;
+pub use render::{Domain, Render};
 pub use rng::{Rng, Seed};
 pub use spec::{Dimension, Goal, Kind, Space, Spec};
 
@@ -99,4 +107,10 @@ pub trait Environment {
 
     /// Writes the present observation into the caller's buffer, whatever it held before.
     fn observe(&self, out: &mut Self::Observation);
+
+    /// Why the simulator gave up on the episode, when it did. Such an episode ends as truncated: nothing is
+    /// wrong with the task, and nothing may be concluded from how it went on.
+    fn fault(&self) -> Option<&str> {
+        None
+    }
 }

@@ -1,6 +1,8 @@
 //! The only place of truncation: a wrapper that ends an episode after a number of steps.
 
-use crate::{End, Environment, Refused, Spec, Step};
+use inroads_sim::view::Scene;
+
+use crate::{End, Environment, Refused, Render, Spec, Step};
 
 /// Truncates the episodes of `E` after a number of steps.
 #[derive(Clone, Debug)]
@@ -17,6 +19,27 @@ impl<E: Environment> TimeLimit<E> {
     pub fn new(inner: E, limit: u32) -> Self {
         let spec = Spec { time_limit: Some(limit), ..inner.spec().clone() };
         Self { inner, spec, limit, taken: 0, over: true }
+    }
+
+    /// What is limited.
+    pub fn inner(&self) -> &E {
+        &self.inner
+    }
+
+    /// Changes what is limited and takes over the goal that its spec then has.
+    pub fn change<T>(&mut self, how: impl FnOnce(&mut E) -> T) -> T {
+        let answer = how(&mut self.inner);
+        self.spec.goal.clone_from(&self.inner.spec().goal);
+        answer
+    }
+
+    /// Steps taken in this episode, and whether it is over.
+    pub(crate) fn clock(&self) -> (u32, bool) {
+        (self.taken, self.over)
+    }
+
+    pub(crate) fn set_clock(&mut self, taken: u32, over: bool) {
+        (self.taken, self.over) = (taken, over);
     }
 }
 
@@ -49,5 +72,15 @@ impl<E: Environment> Environment for TimeLimit<E> {
 
     fn observe(&self, out: &mut Self::Observation) {
         self.inner.observe(out);
+    }
+
+    fn fault(&self) -> Option<&str> {
+        self.inner.fault()
+    }
+}
+
+impl<E: Render> Render for TimeLimit<E> {
+    fn scene(&self) -> Scene {
+        self.inner.scene()
     }
 }

@@ -1,16 +1,19 @@
 //! Environments by name.
 
-use crate::corridor::Corridor;
-use crate::dense::DenseReward;
-use crate::maze::{CORRIDOR, Maze, Picture, PointMaze, U_MAZE};
-use crate::{Environment, Refused, Spec, Step, TimeLimit};
+use inroads_sim::rigid::Model;
+
+use crate::maze::{
+    self, MazeError, Picture, Starts,
+    catalogue::{Listed, Walker},
+};
+use crate::{Domain, Environment, Refused, Spec, Step, corridor, manipulation, reacher};
 
 /// An environment of one of the kinds of observation and action that there are.
 pub enum AnyEnvironment {
     /// Vectors seen, vectors done.
-    Vectors(Box<dyn Environment<Observation = Vec<f32>, Action = Vec<f32>> + Send>),
+    Vectors(Box<dyn Domain<Vec<f32>, Vec<f32>>>),
     /// Vectors seen, one of several choices done.
-    Choices(Box<dyn Environment<Observation = Vec<f32>, Action = usize> + Send>),
+    Choices(Box<dyn Domain<Vec<f32>, usize>>),
 }
 
 impl AnyEnvironment {
@@ -29,8 +32,8 @@ pub struct Entry {
     pub name: &'static str,
     /// One sentence.
     pub about: &'static str,
-    make: fn() -> AnyEnvironment,
-    picture: fn() -> Option<Picture>,
+    pub(crate) make: fn() -> AnyEnvironment,
+    pub(crate) picture: fn() -> Option<Picture>,
 }
 
 impl Entry {
@@ -40,44 +43,9 @@ impl Entry {
     }
 }
 
-/// All environments, in the order in which they are listed.
-pub const ENTRIES: &[Entry] = &[
-    Entry {
-        name: U_MAZE.name,
-        about: U_MAZE.about,
-        // The thesis' limit.
-        make: || AnyEnvironment::Vectors(Box::new(TimeLimit::new(maze(&U_MAZE), 1000))),
-        picture: || Some(maze(&U_MAZE).picture().clone()),
-    },
-    Entry {
-        name: DENSE.0,
-        about: DENSE.1,
-        make: || {
-            let env = DenseReward::named(DENSE.0, DENSE.1, maze(&U_MAZE));
-            AnyEnvironment::Vectors(Box::new(TimeLimit::new(env, 1000)))
-        },
-        picture: || Some(maze(&U_MAZE).picture().clone()),
-    },
-    Entry {
-        name: CORRIDOR.name,
-        about: CORRIDOR.about,
-        make: || AnyEnvironment::Vectors(Box::new(TimeLimit::new(maze(&CORRIDOR), 300))),
-        picture: || Some(maze(&CORRIDOR).picture().clone()),
-    },
-    Entry {
-        name: "corridor-5",
-        about: "five cells in a row, walked from one end to the other; -1 a step",
-        make: || AnyEnvironment::Choices(Box::new(TimeLimit::new(Corridor::named("corridor-5", 5), 50))),
-        picture: || None,
-    },
-];
-
-/// Name and sentence of the Point-Maze that pays by the distance.
-const DENSE: (&str, &str) =
-    ("point-maze-dense", "the same maze; minus a tenth of the distance to the goal a step");
-
-fn maze(maze: &Maze<'_>) -> PointMaze {
-    PointMaze::new(maze).expect("the mazes of this crate are well formed")
+/// All environments, in the order in which they are listed. The entries stand beside their domains.
+pub fn entries() -> impl Iterator<Item = &'static Entry> {
+    [maze::ENTRIES, reacher::ENTRIES, corridor::ENTRIES, manipulation::ENTRIES].into_iter().flatten()
 }
 
 /// There is no environment of that name.
@@ -95,23 +63,126 @@ pub struct Unknown {
 /// # Errors
 /// [`Unknown`] names the nearest one, and all.
 pub fn make(name: &str) -> Result<AnyEnvironment, Unknown> {
-    entry(name).map(Entry::make).ok_or_else(|| Unknown {
-        name: name.to_owned(),
-        nearest: nearest(name, ENTRIES.iter().map(|entry| entry.name)),
-    })
+    entry(name).map(Entry::make)
+}
+
+/// What a user may change of a maze. `Options::default()` changes nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Options<'a> {
+    /// Another map, as [`CellMap::parse`](inroads_sim::rigid::CellMap::parse) reads it.
+    pub map: Option<&'a str>,
+    /// Another side of a cell, metres.
+    pub scale: Option<f64>,
+    /// Another goal, metres from the map's first start.
+    pub goal: Option<[f64; 2]>,
+    /// Other starts.
+    pub starts: Option<Starts<'a>>,
+    /// Another body in the ant's place.
+    pub body: Option<&'a Model>,
+}
+
+impl Options<'_> {
+    /// The names of the options that are set.
+    fn set(&self) -> impl Iterator<Item = &'static str> {
+        [
+            ("map", self.map.is_some()),
+            ("scale", self.scale.is_some()),
+            ("goal", self.goal.is_some()),
+            ("starts", self.starts.is_some()),
+            ("body", self.body.is_some()),
+        ]
+        .into_iter()
+        .filter_map(|(name, set)| set.then_some(name))
+    }
+}
+
+/// Why an environment cannot be built as it is asked for.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MakeError {
+    /// There is no environment of that name.
+    #[error(transparent)]
+    Unknown(#[from] Unknown),
+    /// The environment does not take an option.
+    #[error("`{name}` takes no option `{option}`; {}", takers(option))]
+    Option {
+        /// The environment.
+        name: &'static str,
+        /// The option.
+        option: &'static str,
+    },
+    /// An option has a value that makes no maze.
+    #[error("`{name}`: {why}")]
+    Maze {
+        /// The environment.
+        name: &'static str,
+        /// What is wrong.
+        why: MazeError,
+    },
+}
+
+/// Who takes an option.
+fn takers(option: &str) -> &'static str {
+    match option {
+        "body" => "the mazes of the ant do",
+        _ => "the mazes of point and ant do",
+    }
+}
+
+/// Builds the environment of that name with a user's changes.
+///
+/// # Errors
+/// [`MakeError`] names the option that the environment does not take, or says what is wrong with its value:
+/// with a map, line and column.
+pub fn make_with(name: &str, options: &Options<'_>) -> Result<AnyEnvironment, MakeError> {
+    let entry = entry(name)?;
+    match changed(entry, options)? {
+        Some(maze) => maze.build(options).map_err(|why| MakeError::Maze { name: entry.name, why }),
+        None => Ok(entry.make()),
+    }
+}
+
+/// The environment with a user's changes seen from above, as [`picture`].
+///
+/// # Errors
+/// As [`make_with`].
+pub fn picture_with(name: &str, options: &Options<'_>) -> Result<Option<Picture>, MakeError> {
+    let entry = entry(name)?;
+    match changed(entry, options)? {
+        Some(maze) => {
+            maze.picture(options).map(Some).map_err(|why| MakeError::Maze { name: entry.name, why })
+        }
+        None => Ok((entry.picture)()),
+    }
+}
+
+/// The maze that the options change; none when they change nothing.
+fn changed(entry: &'static Entry, options: &Options<'_>) -> Result<Option<Listed>, MakeError> {
+    let maze = Listed::find(entry.name);
+    let takes = |option: &str| match (maze, option) {
+        (None, _) => false,
+        (Some(maze), "body") => !matches!(maze.walker, Walker::Point(_)),
+        (Some(_), _) => true,
+    };
+    match options.set().find(|option| !takes(option)) {
+        Some(option) => Err(MakeError::Option { name: entry.name, option }),
+        None => Ok(maze.filter(|_| *options != Options::default())),
+    }
 }
 
 /// The environment seen from above, for figures; `None` when there is no such environment or nothing to draw.
 pub fn picture(name: &str) -> Option<Picture> {
-    entry(name).and_then(|entry| (entry.picture)())
+    entry(name).ok().and_then(|entry| (entry.picture)())
 }
 
-fn entry(name: &str) -> Option<&'static Entry> {
-    ENTRIES.iter().find(|entry| entry.name == name)
+fn entry(name: &str) -> Result<&'static Entry, Unknown> {
+    entries().find(|entry| entry.name == name).ok_or_else(|| Unknown {
+        name: name.to_owned(),
+        nearest: nearest(name, entries().map(|entry| entry.name)),
+    })
 }
 
 fn all() -> String {
-    ENTRIES.iter().map(|entry| entry.name).collect::<Vec<_>>().join(", ")
+    entries().map(|entry| entry.name).collect::<Vec<_>>().join(", ")
 }
 
 /// The candidate that the fewest insertions, deletions and replacements turn into `name`.
@@ -152,21 +223,30 @@ impl<E: Environment + ?Sized> Environment for Box<E> {
     fn observe(&self, out: &mut Self::Observation) {
         (**self).observe(out);
     }
+
+    fn fault(&self) -> Option<&str> {
+        (**self).fault()
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::{Options, check};
+    use crate::check::{self, check};
 
     #[test]
     fn every_environment_keeps_the_contract_and_its_name() {
-        for entry in ENTRIES {
+        for entry in entries() {
             let env = entry.make();
             assert_eq!(env.spec().name, entry.name);
+            // A thousand steps of an ant take a tenth of a second; one seed, played three times, has to do.
+            let options = check::Options {
+                episodes: if entry.name.starts_with("ant-") { 1 } else { 4 },
+                ..Default::default()
+            };
             let verdict = match env {
-                AnyEnvironment::Vectors(mut env) => check(&mut env, Options::default()),
-                AnyEnvironment::Choices(mut env) => check(&mut env, Options::default()),
+                AnyEnvironment::Vectors(mut env) => check(&mut env, options),
+                AnyEnvironment::Choices(mut env) => check(&mut env, options),
             };
             verdict.unwrap_or_else(|fault| panic!("{}: {fault}", entry.name));
         }

@@ -1,5 +1,7 @@
 //! What an agent may know of a domain, as data.
 
+use std::borrow::Cow;
+
 use crate::{Refused, Step};
 
 /// Whether a dimension is a line or a circle.
@@ -15,7 +17,7 @@ pub enum Kind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dimension {
     /// What it is, in one word.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Its unit, `""` when it has none.
     pub unit: &'static str,
     /// Least value. For observations the *usual* range (used for scaling), unbounded when infinite.
@@ -29,11 +31,12 @@ pub struct Dimension {
 impl Dimension {
     /// A dimension on a line.
     pub const fn linear(name: &'static str, unit: &'static str, low: f32, high: f32) -> Self {
-        Self { name, unit, low, high, kind: Kind::Linear }
+        Self { name: Cow::Borrowed(name), unit, low, high, kind: Kind::Linear }
     }
 
     /// An angle in radians without bounds.
     pub const fn angle(name: &'static str) -> Self {
+        let name = Cow::Borrowed(name);
         Self { name, unit: "rad", low: f32::NEG_INFINITY, high: f32::INFINITY, kind: Kind::Angle }
     }
 }
@@ -123,6 +126,12 @@ impl Goal {
     /// Euclidean distance from an observation to the goal's point.
     pub fn distance(&self, observation: &[f32]) -> f32 {
         self.dims.iter().zip(&self.at).map(|(&d, &at)| (observation[d] - at).powi(2)).sum::<f32>().sqrt()
+    }
+
+    /// Writes into the caller's buffer what an observation has of the goal's dimensions.
+    pub fn achieved(&self, observation: &[f32], out: &mut Vec<f32>) {
+        out.clear();
+        out.extend(self.dims.iter().map(|&d| observation[d]));
     }
 
     /// Whether the observation lies within the tolerance.

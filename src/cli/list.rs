@@ -7,12 +7,16 @@ use crate::assembly::AGENTS;
 #[allow(clippy::print_stdout)] // what the command is for
 pub(super) fn list() {
     println!("agents");
-    for entry in AGENTS {
-        println!("  {:<14} {}", entry.name, entry.about);
-    }
+    table(&AGENTS.iter().map(|entry| (entry.name, entry.about)).collect::<Vec<_>>());
     println!("\nenvironments");
-    for entry in registry::ENTRIES {
-        println!("  {:<20} {}", entry.name, entry.about);
-    }
+    table(&registry::entries().map(|entry| (entry.name, entry.about)).collect::<Vec<_>>());
     println!("\ntrain one in the other: inroads train AGENT ENVIRONMENT");
+}
+
+#[allow(clippy::print_stdout)] // what the command is for
+fn table(entries: &[(&str, &str)]) {
+    let widest = entries.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+    for (name, about) in entries {
+        println!("  {name:<widest$}  {about}");
+    }
 }

@@ -6,6 +6,7 @@ mod plot;
 mod progress;
 mod render;
 mod train;
+mod world;
 
 use std::{path::PathBuf, process::ExitCode};
 
@@ -47,20 +48,8 @@ enum Command {
         #[arg(long, default_value = "curves.png")]
         out: PathBuf,
     },
-    /// Draw one frozen episode of a run as a GIF
-    Render {
-        /// A run's folder
-        run: PathBuf,
-        /// Which evaluation episode
-        #[arg(long, default_value_t = 0)]
-        episode: u64,
-        /// Where to draw it (default: figures/episode-N.gif in the run's folder)
-        #[arg(long)]
-        out: Option<PathBuf>,
-        /// Use learned skills alone wherever one may start
-        #[arg(long)]
-        chain_alone: bool,
-    },
+    /// Draw one frozen episode of a run, or random actions in an environment
+    Render(render::Arguments),
 }
 
 /// Burn on one thread, unless `RAYON_NUM_THREADS` says otherwise. The products of such small networks are slower on
@@ -85,9 +74,7 @@ pub fn main() -> ExitCode {
             evaluate::evaluate(&run, episodes, checkpoint.as_deref())
         }
         Command::Plot { runs, out } => plot::plot(&runs, &out),
-        Command::Render { run, episode, out, chain_alone } => {
-            render::render(&run, episode, out.as_deref(), chain_alone)
-        }
+        Command::Render(arguments) => render::render(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

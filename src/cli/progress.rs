@@ -43,6 +43,9 @@ impl Progress {
             metrics.skills,
         ));
         self.bar.set_position(metrics.episode + 1);
+        if let Some(fault) = &metrics.fault {
+            self.bar.suspend(|| eprintln!("episode {}: truncated, for {fault}", metrics.episode));
+        }
     }
 
     pub(super) fn finish(self) {

@@ -8,7 +8,7 @@ use std::{
     },
 };
 
-use super::{Done, evaluate::report, progress::Progress};
+use super::{Done, evaluate::report, progress::Progress, world};
 use crate::{
     config::{Config, ConfigError},
     draw,
@@ -44,6 +44,8 @@ pub(super) struct Arguments {
     /// `episodes` and `max_steps`
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
+    #[command(flatten)]
+    world: world::Arguments,
 }
 
 pub(super) fn train(arguments: &Arguments) -> Done {
@@ -95,6 +97,7 @@ fn configure(arguments: &Arguments) -> Result<Config, ConfigError> {
         config = config.with_file(file)?;
     }
     config = assigned(config, &arguments.set)?;
+    arguments.world.put(&mut config.settings.world)?;
     if let Some(seed) = arguments.seed {
         config.settings.seed = seed;
     }
@@ -111,6 +114,12 @@ fn assigned(config: Config, assignments: &[String]) -> Result<Config, ConfigErro
 /// A run goes on as it was begun: what is asked of it must not differ.
 fn agree(arguments: &Arguments, config: &Config) -> Result<(), ConfigError> {
     let settings = &config.settings;
+    let mut world = settings.world.clone();
+    arguments.world.put(&mut world)?;
+    if world != settings.world {
+        let why = "the run has another map, scale or body; leave them out, or begin another run".to_owned();
+        return Err(ConfigError::Impossible { table: "the resumed run".into(), why });
+    }
     let asked = [
         ("agent", Some(arguments.agent.clone()), settings.agent.clone()),
         ("environment", Some(arguments.environment.clone()), settings.environment.clone()),

@@ -7,7 +7,8 @@
 //! | [`curves`] | PNG, learning curves with every seed drawn | figure 3.1 |
 //! | [`sets()`] | PNG, one panel a skill: where its initiation set is | figure 3.2 |
 //! | [`trajectories`] | PNG, paths coloured by the option that acted | figure 3.3 |
-//! | [`movie()`] | GIF, the robot in its maze seen from above | |
+//! | [`movie()`] | GIF, the robot in its maze seen from above, coloured by the option that acts | |
+//! | [`film()`], [`still`] | GIF and PNG of frames that somebody else drew | |
 //!
 //! Three rules hold in all of them. World coordinates have **y upwards**. Colours are numbers of one palette that
 //! colour-blind readers can tell apart ([`skill_name`]: 0, black, is the global option). And the same data give the
@@ -19,11 +20,13 @@
 //!
 //! Shapes are rasterised by `tiny-skia`, letters come from the DejaVu fonts through `ttf-parser`: all Rust.
 
+mod animation;
 mod axis;
 mod canvas;
 mod caption;
 mod chart;
 mod error;
+mod film;
 mod indexed;
 mod legend;
 mod map;
@@ -40,6 +43,7 @@ mod trajectory;
 
 pub use chart::{Level, Panel, Series, curves};
 pub use error::FigureError;
+pub use film::{film, still};
 pub use map::{Map, Rect};
 pub use movie::{Pose, movie};
 pub use palette::skill_name;

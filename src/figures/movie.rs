@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use gif::{DisposalMethod, Encoder, Frame, Repeat};
-
+use super::animation;
 use super::canvas::{Align, Area, Canvas, Font, encoding};
 use super::error::{FigureError, write};
 use super::indexed::{Palette, Rgb};
@@ -31,7 +30,6 @@ const WIDTH: f32 = 460.0;
 const CAPTION: f32 = 34.0;
 /// Hundredths of a second.
 const DELAY: u16 = 7;
-const LAST: u16 = 180;
 
 /// Draws one frame a pose, as an endless GIF of about 14 frames a second that rests on its last frame.
 ///
@@ -46,7 +44,9 @@ pub fn movie(path: impl AsRef<Path>, map: &Map, frames: &[Pose]) -> Result<(), F
     let stage = Stage::new(path, map)?;
     let some = (0..frames.len()).step_by(frames.len().div_ceil(24)).map(|last| stage.frame(frames, last));
     let palette = Palette::of(some, 255);
-    let bytes = encode(&stage, palette, frames).map_err(|error| encoding(path, &error))?;
+    let bytes =
+        animation::encode(stage.size(), palette, DELAY, frames.len(), |last| stage.frame(frames, last))
+            .map_err(|error| encoding(path, &error))?;
     write(path, &bytes)
 }
 
@@ -109,54 +109,5 @@ fn robot(canvas: &mut Canvas, view: &View, pose: &Pose) {
         };
         let nose = [ahead(0.0, 0.95), ahead(2.4, 0.6), ahead(0.0, -0.2), ahead(-2.4, 0.6)];
         canvas.polygon(&nose, WHITE);
-    }
-}
-
-/// Each frame holds only what changed since the one before.
-fn encode(stage: &Stage, mut palette: Palette, poses: &[Pose]) -> Result<Vec<u8>, gif::EncodingError> {
-    let (width, height) = stage.size();
-    // One number more than there are colours means "as before".
-    let same = palette.colours().len() as u8;
-    let mut encoder =
-        Encoder::new(Vec::new(), width, height, &[palette.colours(), &[[0; 3]]].concat().concat())?;
-    encoder.set_repeat(Repeat::Infinite)?;
-    let mut before: Vec<Rgb> = Vec::new();
-    for last in 0..poses.len() {
-        let now = stage.frame(poses, last);
-        let changed = |(index, colour): (usize, &Rgb)| {
-            if before.get(index) == Some(colour) { same } else { palette.number(*colour) }
-        };
-        let indices: Vec<u8> = now.iter().enumerate().map(changed).collect();
-        let delay = if last + 1 == poses.len() { LAST } else { DELAY };
-        encoder.write_frame(&cut(&indices, width, same, delay))?;
-        before = now;
-    }
-    encoder.into_inner()
-}
-
-/// The frame without the rows and columns at its borders that stay the same.
-fn cut(indices: &[u8], width: u16, same: u8, delay: u16) -> Frame<'static> {
-    let wide = usize::from(width);
-    let differs = |index: &usize| indices[*index] != same;
-    let mut rows = (0..indices.len()).filter(differs).map(|index| index / wide);
-    let columns = (0..indices.len()).filter(differs).map(|index| index % wide);
-    let (top, bottom) = (rows.clone().next().unwrap_or(0), rows.next_back().unwrap_or(0));
-    let (left, right) = (columns.clone().min().unwrap_or(0), columns.max().unwrap_or(0));
-    let buffer: Vec<u8> = indices
-        .chunks(wide)
-        .take(bottom + 1)
-        .skip(top)
-        .flat_map(|row| row[left..=right].iter().copied())
-        .collect();
-    Frame {
-        delay,
-        dispose: DisposalMethod::Keep,
-        transparent: Some(same),
-        top: top as u16,
-        left: left as u16,
-        width: (right - left + 1) as u16,
-        height: (bottom - top + 1) as u16,
-        buffer: buffer.into(),
-        ..Frame::default()
     }
 }

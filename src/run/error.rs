@@ -23,6 +23,17 @@ pub enum RunError {
     /// There is no such run.
     #[error("{0} is no run folder (it has no config.toml); give the folder that `train` wrote")]
     NoRun(PathBuf),
+    /// Neither a run nor an environment.
+    #[error(
+        "{what} is no run folder and no environment; give the folder that `train` wrote, or a name from `inroads list` \
+         (the nearest is `{nearest}`)"
+    )]
+    NothingToRender {
+        /// What was asked for.
+        what: String,
+        /// The environment whose name is nearest.
+        nearest: &'static str,
+    },
     /// A run without any checkpoint.
     #[error("{0} has no checkpoint to go on from; begin again in another folder")]
     NoCheckpoint(PathBuf),

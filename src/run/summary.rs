@@ -121,7 +121,7 @@ impl Run {
     }
 
     fn sets(&self) -> Vec<SetSummary> {
-        let view = View::of(&self.config.settings.environment);
+        let view = View::of(&self.config.settings);
         let mut rasters = view
             .iter()
             .flat_map(|view| view.sets(self).into_iter().map(|raster| raster.share_of_free_space(&view.map)));
