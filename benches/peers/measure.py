@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""Measures this project's bodies and environments side by side with MuJoCo and Gymnasium-Robotics.
+
+    python3 benches/peers/measure.py [--rounds 9] [--seconds 0.4] [--core 0] [--binary PATH]
+
+Makes an environment of its own in a temporary directory (needs network once, or --environment to keep one), builds the
+benchmark, and prints a Markdown table. Everything runs on one core: in every round, the peer is measured before
+and after ours, and the ratio is ours over the mean of the two. Medians over rounds, [least-greatest]. Seconds are
+of processor time, so that what else runs on the machine counts little.
+Nothing here is needed by a test.
+"""
+
+import argparse
+import json
+import os
+import platform
+import statistics
+import subprocess
+import sys
+import tempfile
+import venv
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+PACKAGES = ["mujoco==4.0.0", "gymnasium==1.4.0", "gymnasium-robotics==1.4.2"]
+
+# (ours, peer): names of benches/throughput and of peers.py.
+PAIRS = [
+    ("sim/ant/step, open floor", "MuJoCo mj_step, RK4"),
+    ("sim/ant/step, open floor", "MuJoCo mj_step, Euler"),
+    ("sim/ant/step, open floor", "MuJoCo mj_step, implicitfast"),
+    ("sim/ant/step, u-maze", "MuJoCo mj_step, RK4, U-maze walls"),
+    ("envs/ant-u-maze/step and observe", "Gymnasium-Robotics AntMaze_UMaze-v5"),
+    ("envs/point-maze/step and observe", "Gymnasium-Robotics PointMaze_UMaze-v3"),
+]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--rounds", type=int, default=9)
+    parser.add_argument("--seconds", type=float, default=0.4, help="length of one measurement")
+    parser.add_argument("--core", type=int, default=0, help="the core that everything runs on")
+    parser.add_argument("--environment", help="directory of the Python environment, made if it is not there")
+    parser.add_argument("--binary", help="a built benchmark; without it, it is built")
+    parser.add_argument("--peers-only", action="store_true", help="measure the other simulators alone")
+    options = parser.parse_args()
+    try:
+        import gymnasium_robotics  # noqa: F401
+    except ImportError:
+        return again_inside(options)
+    import peers
+
+    binary = None if options.peers_only else options.binary or build()
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {options.core})
+    made = {name: make() for name, make in peers.PEERS.items()}
+    print(f"{platform.processor() or platform.machine()} ({processor()}), load before: {load()}\n")
+    if binary is None:
+        alone(peers, made, options)
+    else:
+        table(peers, made, binary, options)
+    print(f"\nload after: {load()}; rounds: {options.rounds} of {options.seconds} s; {', '.join(PACKAGES)}")
+
+
+def again_inside(options):
+    """Makes the environment, and runs this script in it."""
+    with tempfile.TemporaryDirectory(prefix="inroads-peers-") as directory:
+        directory = options.environment or directory
+        python = os.path.join(directory, "bin", "python")
+        if not os.path.exists(python):
+            venv.create(directory, with_pip=True)
+            subprocess.run([python, "-m", "pip", "install", "--quiet", *PACKAGES], check=True)
+        result = subprocess.run([python, os.path.abspath(__file__), *sys.argv[1:]])
+    sys.exit(result.returncode)
+
+
+def build():
+    """The benchmark's executable."""
+    command = ["cargo", "bench", "--locked", "--bench", "throughput", "--no-run", "--message-format=json"]
+    lines = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()
+    for message in map(json.loads, lines):
+        if message.get("executable") and message["target"]["name"] == "throughput":
+            return message["executable"]
+    sys.exit("cargo built no executable of the benchmark `throughput`")
+
+
+def ours(binary, name, seconds):
+    """Steps a second of one of our workloads."""
+    command = [binary, "--only", name, "--seconds", str(seconds)]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(command)} failed")
+    return float(done.stdout)
+
+
+def table(peers, made, binary, options):
+    print("| ours | steps/s | peer | steps/s | ours / peer |\n|---|---|---|---|---|")
+    for name, peer in PAIRS:
+        mine, theirs, ratios = [], [], []
+        for _ in range(options.rounds):
+            before = peers.speed(made[peer], options.seconds)
+            found = ours(binary, name, options.seconds)
+            after = peers.speed(made[peer], options.seconds)
+            mine.append(found)
+            theirs += [before, after]
+            ratios.append(2 * found / (before + after))
+        print(f"| {name} | {middle(mine)} | {peer} | {middle(theirs)} | {spread(ratios)} |", flush=True)
+
+
+def alone(peers, made, options):
+    print("| peer | steps/s |\n|---|---|")
+    found = {name: [] for name in made}
+    for _ in range(options.rounds):
+        for name, run in made.items():
+            found[name].append(peers.speed(run, options.seconds))
+    for name, speeds in found.items():
+        print(f"| {name} | {middle(speeds)} [{min(speeds):.0f}-{max(speeds):.0f}] |")
+
+
+def middle(numbers):
+    return f"{statistics.median(numbers):.0f}"
+
+
+def spread(ratios):
+    return f"{statistics.median(ratios):.2f} [{min(ratios):.2f}-{max(ratios):.2f}]"
+
+
+def processor():
+    try:
+        with open("/proc/cpuinfo") as file:
+            return next(line.split(":")[1].strip() for line in file if line.startswith("model name"))
+    except (OSError, StopIteration):
+        return "unnamed processor"
+
+
+def load():
+    return " ".join(f"{number:.1f}" for number in os.getloadavg()) if hasattr(os, "getloadavg") else "unknown"
+
+
+if __name__ == "__main__":
+    main()

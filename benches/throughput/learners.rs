@@ -1,0 +1,110 @@
+//! What a learner costs: DDPG, and beside it the matrix products that it cannot do without.
+
+use std::{cell::RefCell, hint::black_box, rc::Rc, sync::Arc};
+
+use burn::tensor::{Device, Tensor, TensorData};
+use inroads::{
+    agents::{
+        Clip, Context, Encoder, Learner, Memory,
+        ddpg::{Ddpg, DdpgConfig},
+        encode::Scaled,
+        nets::Backend,
+    },
+    envs::{Seed, registry},
+};
+use rand::RngExt;
+
+use crate::workload::Workload;
+
+/// What an update of DDPG is called; its products alone have [`ALONE`] behind it.
+pub(crate) const UPDATE: &str = "agents/ddpg/update";
+/// Behind the name of what is measured without anything around it.
+pub(crate) const ALONE: &str = ", products alone";
+
+/// DDPG of the paper's size (400-300, batch 64) on the Point-Maze's observations.
+pub(crate) fn ddpg() -> Vec<Workload> {
+    let spec = registry::make("point-maze").expect("it is in the registry").spec().clone();
+    let encoder = Arc::new(Scaled::new(&spec.observation));
+    let inputs = Encoder::<Vec<f32>>::width(&*encoder);
+    let config = DdpgConfig::default();
+    let mut rng = Seed(0).stream("bench", 1);
+    let learner: Ddpg<Vec<f32>> = Ddpg::new(encoder, 2, &config, Backend::Flex, &mut rng);
+    let observations: Vec<Vec<f32>> =
+        (0..=config.batch).map(|_| (0..6).map(|_| rng.random_range(-1.0..1.0)).collect()).collect();
+    let actions: Vec<Vec<f32>> =
+        (0..config.batch).map(|_| vec![rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0)]).collect();
+    // One learner acts and learns.
+    let learner = Rc::new(RefCell::new((learner, Context::training(Seed(0), 0))));
+    let acting = {
+        let (learner, observation, mut memory) =
+            (Rc::clone(&learner), observations[0].clone(), Memory::new());
+        Workload::repeated("agents/ddpg/act", move || {
+            let (learner, ctx) = &mut *learner.borrow_mut();
+            black_box(learner.act(&mut memory, &observation, ctx));
+        })
+    };
+    let update = Workload::repeated(UPDATE, move || {
+        let (learner, ctx) = &mut *learner.borrow_mut();
+        let clips: Vec<Clip<Vec<f32>, Vec<f32>>> = (0..actions.len())
+            .map(|i| Clip {
+                observations: &observations[i..=i + 1],
+                actions: &actions[i..=i],
+                reward: -1.0,
+                terminal: false,
+            })
+            .collect();
+        black_box(learner.learn(&clips, ctx));
+    });
+    let products = Products::of_update(config.batch, inputs, 2, config.hidden[0], config.hidden[1]);
+    let alone = Workload::repeated(&format!("{UPDATE}{ALONE}"), move || products.compute());
+    let row = Products::of_acting(inputs, 2, config.hidden[0], config.hidden[1]);
+    let row = Workload::repeated("agents/ddpg/act, products alone", move || row.compute());
+    vec![acting, update, alone, row]
+}
+
+/// Matrix products on the backend of the learners, without anything around them.
+struct Products(Vec<(Tensor<2>, Tensor<2>)>);
+
+impl Products {
+    /// Products of `[m, k]` and `[k, n]`.
+    fn new(shapes: Vec<[usize; 3]>) -> Self {
+        let device = Device::flex();
+        let matrix = |rows: usize, columns: usize| {
+            let values: Vec<f32> = (0..rows * columns).map(|i| (i % 17) as f32 / 17.0 - 0.5).collect();
+            Tensor::<2>::from_data(TensorData::new(values, [rows, columns]), &device)
+        };
+        Self(shapes.into_iter().map(|[m, k, n]| (matrix(m, k), matrix(k, n))).collect())
+    }
+
+    fn of_acting(inputs: usize, actions: usize, first: usize, second: usize) -> Self {
+        Self::new(vec![[1, inputs, first], [1, first, second], [1, second, actions]])
+    }
+
+    /// Every product of an update. The action enters the critic at its second layer, by weights of its own, so the
+    /// actor's pass goes back through that layer's action weights only.
+    fn of_update(batch: usize, inputs: usize, actions: usize, first: usize, second: usize) -> Self {
+        let actor = [[batch, inputs, first], [batch, first, second], [batch, second, actions]];
+        let into_second = [batch, actions, second];
+        let critic = [[batch, inputs, first], [batch, first, second], into_second, [batch, second, 1]];
+        let weights = |[m, k, n]: [usize; 3]| [k, m, n];
+        let entering = |[m, k, n]: [usize; 3]| [m, n, k];
+        let mut shapes = Vec::new();
+        shapes.extend(actor); // target actor
+        shapes.extend(critic); // target critic
+        shapes.extend(critic); // critic forth
+        shapes.extend(critic.map(weights));
+        shapes.extend([critic[1], critic[3]].map(entering)); // nothing before the first layer learns
+        shapes.extend(actor); // actor forth
+        shapes.extend(critic); // and through the critic
+        shapes.extend([critic[3], into_second].map(entering)); // back to the action
+        shapes.extend(actor.map(weights));
+        shapes.extend([actor[1], actor[2]].map(entering));
+        Self::new(shapes)
+    }
+
+    fn compute(&self) {
+        for (a, b) in &self.0 {
+            black_box(a.clone().matmul(b.clone()));
+        }
+    }
+}
