@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let quick = std::env::args().any(|argument| argument == "--quick");
     let steps = if quick { 3 } else { 110 };
     let ant = registry::make("ant-u-maze")?;
-    let frames = film(ant, 0, &Play::Actions((0..steps).map(torques).collect()), View::Beside, 256)?;
+    let frames = film(ant, 0, &Play::Actions((0..steps).map(torques).collect()), View::Beside, 240)?;
     let frames: Vec<_> = frames.into_iter().step_by(2).collect();
     let path = if quick { std::env::temp_dir().join("walking-ant.gif") } else { "walking-ant.gif".into() };
     figures::film(&path, &frames, 20)?;

@@ -292,7 +292,7 @@ mod tests {
         let map = u_maze();
         assert!(!map.may_touch_wall([0.0, 0.0], 1.9) && map.may_touch_wall([0.0, 0.0], 2.1));
         assert!(map.may_touch_wall([7.0, 1.0], 1.5) && !map.may_touch_wall([7.0, 1.0], 0.9));
-        assert!(map.may_meet_wall([7.0, 1.0], [0.1, 1.5]) && !map.may_meet_wall([7.0, 1.0], [0.9, 0.9]));
+        assert!(map.may_meet_wall([7.0, 1.0], [1.5, 1.5]) && !map.may_meet_wall([7.0, 1.0], [0.9, 1.5]));
         assert!(map.may_touch_wall([100.0, 0.0], 0.1) && map.may_touch_wall([f64::NAN, 0.0], 0.1));
     }
 
