@@ -141,7 +141,7 @@ pub fn make_with(name: &str, options: &Options<'_>) -> Result<AnyEnvironment, Ma
     }
 }
 
-/// The environment with a user's changes seen from above, as [`picture`].
+/// The environment with a user's changes seen from above, for figures; none when there is nothing to draw.
 ///
 /// # Errors
 /// As [`make_with`].
@@ -167,11 +167,6 @@ fn changed(entry: &'static Entry, options: &Options<'_>) -> Result<Option<Listed
         Some(option) => Err(MakeError::Option { name: entry.name, option }),
         None => Ok(maze.filter(|_| *options != Options::default())),
     }
-}
-
-/// The environment seen from above, for figures; `None` when there is no such environment or nothing to draw.
-pub fn picture(name: &str) -> Option<Picture> {
-    entry(name).ok().and_then(|entry| (entry.picture)())
 }
 
 fn entry(name: &str) -> Result<&'static Entry, Unknown> {
@@ -258,8 +253,9 @@ mod tests {
         assert_eq!(error.nearest, Some("point-maze"));
         let text = error.to_string();
         assert!(text.contains("did you mean `point-maze`?") && text.contains("corridor-5"), "{text}");
-        assert!(picture("point-mze").is_none() && picture("corridor-5").is_none());
-        assert!(picture("point-maze").is_some());
+        let picture = |name| picture_with(name, &super::Options::default());
+        assert!(picture("point-mze").is_err());
+        assert!(picture("corridor-5").unwrap().is_none() && picture("point-maze").unwrap().is_some());
     }
 
     #[test]
