@@ -3,6 +3,7 @@
 //! This room knows geometry and physics, and nothing of rewards, episodes or tensors.
 
 pub mod math;
+pub mod raster;
 pub mod rigid;
 mod shape;
 pub mod view;
