@@ -17,11 +17,14 @@ impl MountainCar {
         let spec = Spec {
             name: "mountain-car",
             about: "a weak car in a valley",
-            observation: Space::Box(vec![
-                Dimension::linear("position", "", -1.2, 0.6),
-                Dimension::linear("velocity", "", -0.07, 0.07),
-            ]),
-            action: Space::Box(vec![Dimension::linear("force", "", -1.0, 1.0)]),
+            observation: Space::Box(
+                [
+                    Dimension::linear("position", "", -1.2, 0.6),
+                    Dimension::linear("velocity", "", -0.07, 0.07),
+                ]
+                .into(),
+            ),
+            action: Space::Box([Dimension::linear("force", "", -1.0, 1.0)].into()),
             goal: None, // the reward tells: an episode that terminates with 0 succeeded
             place: vec![0, 1],
             time_limit: None,
@@ -57,7 +60,7 @@ impl Environment for MountainCar {
         Ok(Step { reward, end })
     }
 
-    fn observe(&self, out: &mut Vec<f32>) {
+    fn observe(&mut self, out: &mut Vec<f32>) {
         out.clear();
         out.extend([self.position, self.velocity]);
     }

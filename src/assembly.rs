@@ -345,6 +345,6 @@ fn q_learning(spec: &Spec, settings: &Table, _: Backend, _: Seed) -> Result<Boxe
 fn choices(spec: &Spec) -> usize {
     match &spec.action {
         inroads_envs::Space::Discrete(n) => *n,
-        inroads_envs::Space::Box(dimensions) => dimensions.len(),
+        other => other.len(),
     }
 }

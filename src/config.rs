@@ -3,10 +3,13 @@
 //! A run's settings stand at the top level, its agent's in tables below. The defaults of the agent say which keys
 //! there are and what type each has, so an unknown key or a wrong type is named before anything is built.
 
-use std::{fs, path::Path};
+use std::{fs, path::Path, str::FromStr};
 
 use inroads_agents::nets::Backend;
-use inroads_envs::registry::{MakeError, Options, nearest};
+use inroads_envs::{
+    registry::{MakeError, Options, nearest},
+    world::WordError,
+};
 use inroads_sim::rigid::Model;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use toml::{Table, Value};
@@ -103,7 +106,7 @@ pub struct Settings {
     pub world: World,
 }
 
-/// A maze and a body of the user's own. They stand here as text, so that a run's folder needs no other file.
+/// A maze and a body of the user's own, as text, so that a run's folder needs no other file; and how a world is seen.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct World {
@@ -113,6 +116,11 @@ pub struct World {
     pub scale: f64,
     /// The body as MJCF; empty for the environment's own.
     pub body: String,
+    /// How a world of cells or sprites is seen: `symbols`, `rgb`, `grey`, `rgb:84`, `grey:84`, `atari`; empty for the
+    /// environment's own way.
+    pub see: String,
+    /// Which layouts its episodes have: `random`, `fixed:42`, `map:42`; empty for the environment's own.
+    pub layout: String,
 }
 
 /// A whole configuration, checked.
@@ -139,6 +147,8 @@ impl World {
             map: (!self.map.is_empty()).then_some(self.map.as_str()),
             scale: (self.scale != 0.0).then_some(self.scale),
             body: body.as_ref(),
+            see: word(&self.see)?,
+            layout: word(&self.layout)?,
             ..Options::default()
         };
         ask(&options).map_err(|why| match why {
@@ -146,6 +156,12 @@ impl World {
             other => ConfigError::World(other.to_string()),
         })
     }
+}
+
+/// What a user's word means; nothing when there is none.
+fn word<T: FromStr<Err = WordError>>(word: &str) -> Result<Option<T>, ConfigError> {
+    let meaning = (!word.is_empty()).then(|| word.parse()).transpose();
+    meaning.map_err(|why: WordError| ConfigError::World(why.to_string()))
 }
 
 impl Config {

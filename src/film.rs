@@ -1,7 +1,7 @@
 //! Episodes as pictures of the world itself: a domain's scene, step by step, through one of two cameras.
 
-use image::RgbImage;
-use inroads_envs::{Domain, Refused, Rng, Seed, Space, registry::AnyEnvironment};
+use image::{RgbImage, imageops};
+use inroads_envs::{Domain, Drawing, Refused, Rng, Seed, Space, registry::AnyEnvironment};
 use inroads_sim::{
     rigid::Rectangle,
     view::{Camera, Scene, draw},
@@ -65,18 +65,23 @@ pub fn film(
             })
         }
         AnyEnvironment::Choices(mut env) => {
-            let choices = match env.spec().action {
-                Space::Discrete(choices) => choices,
-                Space::Box(_) => 1,
-            };
-            shoot(&mut *env, seed, play.steps(), (view, width), |step| match play {
-                Play::Actions(actions) => match &actions[step] {
-                    Action::Choice(choice) => *choice,
-                    Action::Vector(_) => choices, // of the wrong kind: will be refused
-                },
-                Play::Random(_) => rng.random_range(0..choices),
-            })
+            let choices = env.spec().action.choices();
+            shoot(&mut *env, seed, play.steps(), (view, width), |step| choice(play, step, choices, &mut rng))
         }
+        AnyEnvironment::Frames(mut env) => {
+            let choices = env.spec().action.choices();
+            shoot(&mut *env, seed, play.steps(), (view, width), |step| choice(play, step, choices, &mut rng))
+        }
+    }
+}
+
+fn choice(play: &Play, step: usize, choices: usize, rng: &mut Rng) -> usize {
+    match play {
+        Play::Actions(actions) => match &actions[step] {
+            Action::Choice(choice) => *choice,
+            Action::Vector(_) => choices, // of the wrong kind: will be refused
+        },
+        Play::Random(_) => rng.random_range(0..choices),
     }
 }
 
@@ -84,8 +89,8 @@ fn random_vector(space: &Space, rng: &mut Rng) -> Vector {
     space.dimensions().iter().map(|d| rng.random_range(d.low..=d.high)).collect()
 }
 
-fn shoot<A: Clone>(
-    env: &mut dyn Domain<Vector, A>,
+fn shoot<O: Clone + Default, A: Clone>(
+    env: &mut dyn Domain<O, A>,
     seed: u64,
     steps: u32,
     camera: (View, u32),
@@ -95,11 +100,13 @@ fn shoot<A: Clone>(
     let every = steps.div_ceil(FRAMES).max(1);
     let (mut trail, mut frames, mut over) = (Vec::new(), Vec::new(), false);
     for step in 0..=steps {
-        let mut scene = env.scene();
-        trail.push([scene.focus.x, scene.focus.y]);
-        if step % every == 0 || over || step == steps {
+        let mut drawing = env.drawing();
+        if let Drawing::Bodies(scene) = &mut drawing {
+            trail.push([scene.focus.x, scene.focus.y]);
             scene.trail.clone_from(&trail);
-            frames.push(frame(&scene, camera));
+        }
+        if step % every == 0 || over || step == steps {
+            frames.push(picture(drawing, camera));
         }
         if over || step == steps {
             break;
@@ -107,6 +114,19 @@ fn shoot<A: Clone>(
         over = env.step(&act(step as usize))?.end.is_some();
     }
     Ok(frames)
+}
+
+/// A drawing as a picture so many pixels wide, of bodies from where the camera is; of cells and sprites about so wide.
+pub(crate) fn picture(drawing: Drawing, camera: (View, u32)) -> RgbImage {
+    match drawing {
+        Drawing::Bodies(scene) => frame(&scene, camera),
+        Drawing::Pixels(small) => {
+            // Whole pixels only, so that they stay squares.
+            let [times, width, height] =
+                [(camera.1 / small.width().max(1)).max(1), small.width(), small.height()];
+            imageops::resize(&small, times * width, times * height, imageops::FilterType::Nearest)
+        }
+    }
 }
 
 fn frame(scene: &Scene, (view, width): (View, u32)) -> RgbImage {

@@ -19,6 +19,7 @@ pub mod config;
 pub mod draw;
 pub mod figures;
 pub mod film;
+mod keys;
 pub mod prelude;
 pub mod run;
 pub mod session;

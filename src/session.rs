@@ -135,6 +135,10 @@ pub fn build(config: &Config) -> Result<Box<dyn Session>, ConfigError> {
     match environment(&config.settings)? {
         AnyEnvironment::Vectors(env) => continuous(env, config),
         AnyEnvironment::Choices(env) => discrete(env, config),
+        AnyEnvironment::Frames(_) => Err(ConfigError::World(format!(
+            "`{}` is seen as pictures, which no agent reads yet; see it as symbols: --see symbols",
+            config.settings.environment
+        ))),
     }
 }
 

@@ -106,11 +106,14 @@ mod tests {
 
     #[test]
     fn ranges_become_unit_ranges_and_angles_become_points_on_a_circle() {
-        let space = Space::Box(vec![
-            Dimension::linear("x", "m", -2.0, 10.0),
-            Dimension::angle("heading"),
-            Dimension::linear("v", "m/s", f32::NEG_INFINITY, f32::INFINITY),
-        ]);
+        let space = Space::Box(
+            [
+                Dimension::linear("x", "m", -2.0, 10.0),
+                Dimension::angle("heading"),
+                Dimension::linear("v", "m/s", f32::NEG_INFINITY, f32::INFINITY),
+            ]
+            .into(),
+        );
         let encoder = Scaled::new(&space);
         let mut row = vec![0.0; encoder.width()];
         encoder.write(&vec![10.0, std::f32::consts::FRAC_PI_2, 7.0], &mut row);

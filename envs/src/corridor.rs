@@ -6,15 +6,17 @@ use inroads_sim::{
     view::{Mark, Scene, Solid},
 };
 
-use crate::registry::{AnyEnvironment, Entry};
-use crate::{Dimension, End, Environment, Goal, Refused, Render, Space, Spec, Step, TimeLimit};
+use crate::registry::{AnyEnvironment, Entry, Make};
+use crate::{Dimension, Drawing, End, Environment, Goal, Refused, Render, Space, Spec, Step, TimeLimit};
 
 /// The corridors of the registry.
 pub(crate) const ENTRIES: &[Entry] = &[Entry {
     name: "corridor-5",
     about: "five cells in a row, walked from one end to the other; -1 a step",
-    make: || AnyEnvironment::Choices(Box::new(TimeLimit::new(Corridor::named("corridor-5", 5), 50))),
-    picture: || None,
+    make: Make::Bodies {
+        make: || AnyEnvironment::Choices(Box::new(TimeLimit::new(Corridor::named("corridor-5", 5), 50))),
+        picture: || None,
+    },
 }];
 
 /// `n` cells in a row: 0 steps left, 1 steps right, from the first cell to the last; the ends stop one.
@@ -41,7 +43,7 @@ impl Corridor {
         let spec = Spec {
             name,
             about: "a row of cells, walked from one end to the other; -1 a step",
-            observation: Space::Box(vec![Dimension::linear("cell", "", 0.0, last as f32)]),
+            observation: Space::Box([Dimension::linear("cell", "", 0.0, last as f32)].into()),
             action: Space::Discrete(2),
             goal: Some(Goal { dims: vec![0], at: vec![last as f32], tolerance: 0.25 }),
             place: vec![0],
@@ -78,28 +80,32 @@ impl Environment for Corridor {
         })
     }
 
-    fn observe(&self, out: &mut Vec<f32>) {
+    fn observe(&mut self, out: &mut Vec<f32>) {
         out.clear();
         out.push(self.at as f32);
     }
 }
 
 impl Render for Corridor {
-    fn scene(&self) -> Scene {
+    fn choices(&self) -> &'static [&'static str] {
+        &["left", "right"]
+    }
+
+    fn drawing(&self) -> Drawing {
         let last = self.last as f32;
         let walker = Solid {
             shape: Shape::Ball { radius: 0.3 },
             pose: Pose::from_translation(Vector::new(self.at as f32, 0.0, 0.3)),
             colour: [214, 96, 77],
         };
-        Scene {
+        Drawing::Bodies(Scene {
             solids: vec![walker],
             marks: vec![Mark { at: [last, 0.0], radius: 0.4, colour: [77, 175, 74] }],
             trail: Vec::new(),
             bounds: Rectangle { low: [-0.5, -0.5], high: [f64::from(last) + 0.5, 0.5] },
             focus: Vector::new(last / 2.0, 0.0, 0.0),
             distance: 1.5 * last,
-        }
+        })
     }
 }
 

@@ -5,26 +5,45 @@
 //! in its [`Spec`], never a method, so agents compile once for each kind of observation and action rather
 //! than once for each domain.
 
+#[cfg(test)]
+extern crate self as inroads_envs;
+
+pub mod baba;
 mod capability;
+pub mod certificate;
 pub mod check;
 pub mod corridor;
 mod goals;
+pub mod grid;
 pub mod limit;
 pub mod manipulation;
 pub mod maze;
+pub mod montezuma;
+mod observation;
+pub mod pinball;
+pub mod probes;
 pub mod reacher;
 pub mod registry;
 mod render;
+pub mod river;
 mod rng;
+pub mod sokoban;
 mod spec;
+pub mod taxi;
 pub mod vector;
+pub mod visual_taxi;
+pub mod world;
 
 pub use capability::{Limited, Snapshot, Sweep};
 pub use goals::{GoalError, Goals, Pay};
 pub use limit::TimeLimit;
-pub use render::{Domain, Render};
+pub use observation::{Annotated, Bits};
+pub use render::{Domain, Drawing, Render};
 pub use rng::{Rng, Seed};
 pub use spec::{Dimension, Goal, Kind, Space, Spec};
+pub use world::ProtoGoals;
+
+pub use inroads_sim::raster::Frame;
 
 /// How an episode ended. The two are never one flag: a learner bootstraps past a truncation and never past a
 /// termination.
@@ -106,7 +125,10 @@ pub trait Environment {
     fn step(&mut self, action: &Self::Action) -> Result<Step, Refused>;
 
     /// Writes the present observation into the caller's buffer, whatever it held before.
-    fn observe(&self, out: &mut Self::Observation);
+    ///
+    /// It may remember what it drew, to draw only what differs the next time, and changes nothing else: what it
+    /// writes is a function of the episode so far, however often anybody looked.
+    fn observe(&mut self, out: &mut Self::Observation);
 
     /// Why the simulator gave up on the episode, when it did. Such an episode ends as truncated: nothing is
     /// wrong with the task, and nothing may be concluded from how it went on.

@@ -1,8 +1,6 @@
 //! The only place of truncation: a wrapper that ends an episode after a number of steps.
 
-use inroads_sim::view::Scene;
-
-use crate::{End, Environment, Refused, Render, Spec, Step};
+use crate::{Drawing, End, Environment, Refused, Render, Spec, Step, world::Fact};
 
 /// Truncates the episodes of `E` after a number of steps.
 #[derive(Clone, Debug)]
@@ -70,7 +68,7 @@ impl<E: Environment> Environment for TimeLimit<E> {
         Ok(step)
     }
 
-    fn observe(&self, out: &mut Self::Observation) {
+    fn observe(&mut self, out: &mut Self::Observation) {
         self.inner.observe(out);
     }
 
@@ -80,7 +78,19 @@ impl<E: Environment> Environment for TimeLimit<E> {
 }
 
 impl<E: Render> Render for TimeLimit<E> {
-    fn scene(&self) -> Scene {
-        self.inner.scene()
+    fn drawing(&self) -> Drawing {
+        self.inner.drawing()
+    }
+
+    fn facts(&self) -> Vec<Fact> {
+        self.inner.facts()
+    }
+
+    fn told(&self) -> Option<String> {
+        self.inner.told()
+    }
+
+    fn choices(&self) -> &'static [&'static str] {
+        self.inner.choices()
     }
 }

@@ -13,9 +13,10 @@ use inroads_sim::{
 };
 use rand::RngExt;
 
-use crate::registry::{AnyEnvironment, Entry};
+use crate::registry::{AnyEnvironment, Entry, Make};
 use crate::{
-    Dimension, End, Environment, Goal, Refused, Render, Rng, Seed, Snapshot, Space, Spec, Step, TimeLimit,
+    Dimension, Drawing, End, Environment, Goal, Refused, Render, Rng, Seed, Snapshot, Space, Spec, Step,
+    TimeLimit,
 };
 
 /// What a step pays and what ends an episode.
@@ -53,20 +54,17 @@ const SPARSE: Entry = Entry {
     name: "reacher",
     about: "a two-link arm touches a target with its fingertip; -1 a step",
     // The steps that an episode of the author's code has; Gymnasium's 50 are shorter than one skill's call.
-    make: || limited(Task::Sparse, 1000),
-    picture: || None,
+    make: Make::Bodies { make: || limited(Task::Sparse, 1000), picture: || None },
 };
 const DENSE: Entry = Entry {
     name: "reacher-dense",
     about: "the same arm as in Gymnasium: minus distance and effort at every step, 50 steps",
-    make: || limited(Task::Dense, 50),
-    picture: || None,
+    make: Make::Bodies { make: || limited(Task::Dense, 50), picture: || None },
 };
 const BONUS: Entry = Entry {
     name: "reacher-bonus",
     about: "the same arm; 10 for touching the target, a little less than nothing for effort and time",
-    make: || limited(Task::Bonus, 1000),
-    picture: || None,
+    make: Make::Bodies { make: || limited(Task::Bonus, 1000), picture: || None },
 };
 
 /// The reachers of the registry.
@@ -184,7 +182,7 @@ impl Environment for Reacher {
         Ok(step)
     }
 
-    fn observe(&self, out: &mut Vec<f32>) {
+    fn observe(&mut self, out: &mut Vec<f32>) {
         let (joints, gap) = (self.arm.state(), self.gap());
         out.clear();
         out.extend(joints.q.iter().map(|angle| math::cosf(*angle)));
@@ -224,16 +222,16 @@ impl Snapshot for Reacher {
 }
 
 impl Render for Reacher {
-    fn scene(&self) -> Scene {
+    fn drawing(&self) -> Drawing {
         let reach = f64::from(LENGTH + FINGERTIP);
-        Scene {
+        Drawing::Bodies(Scene {
             solids: self.arm.solids(|link| [colour::JOINT, colour::TORSO][link]).collect(),
             marks: vec![Mark { at: self.target, radius: TOLERANCE, colour: colour::GOAL }],
             trail: Vec::new(),
             bounds: Rectangle { low: [-1.1 * reach; 2], high: [1.1 * reach; 2] },
             focus: Vector::ZERO,
             distance: 0.5,
-        }
+        })
     }
 }
 
@@ -258,20 +256,23 @@ fn spec(task: Task) -> Spec {
     Spec {
         name: entry.name,
         about: entry.about,
-        observation: Space::Box(vec![
-            within("cos_q0", "", 1.0),
-            within("cos_q1", "", 1.0),
-            within("sin_q0", "", 1.0),
-            within("sin_q1", "", 1.0),
-            within("target_x", "m", TARGETS),
-            within("target_y", "m", TARGETS),
-            within("dq0", "rad/s", SPEED),
-            within("dq1", "rad/s", SPEED),
-            within("gap_x", "m", far),
-            within("gap_y", "m", far),
-            within("gap_z", "m", far),
-        ]),
-        action: Space::Box(vec![within("torque_0", "200 N m", 1.0), within("torque_1", "200 N m", 1.0)]),
+        observation: Space::Box(
+            [
+                within("cos_q0", "", 1.0),
+                within("cos_q1", "", 1.0),
+                within("sin_q0", "", 1.0),
+                within("sin_q1", "", 1.0),
+                within("target_x", "m", TARGETS),
+                within("target_y", "m", TARGETS),
+                within("dq0", "rad/s", SPEED),
+                within("dq1", "rad/s", SPEED),
+                within("gap_x", "m", far),
+                within("gap_y", "m", far),
+                within("gap_z", "m", far),
+            ]
+            .into(),
+        ),
+        action: Space::Box([within("torque_0", "200 N m", 1.0), within("torque_1", "200 N m", 1.0)].into()),
         // Wherever the target is, to touch it is to bring the gap to nothing.
         goal: (task != Task::Dense).then(|| Goal {
             dims: vec![8, 9],

@@ -1,12 +1,18 @@
 //! Environments by name.
 
-use inroads_sim::rigid::Model;
+use inroads_sim::{raster::FormatError, rigid::Model};
 
+use crate::certificate::{self, Certificate};
 use crate::maze::{
     self, MazeError, Picture, Starts,
     catalogue::{Listed, Walker},
 };
-use crate::{Domain, Environment, Refused, Spec, Step, corridor, manipulation, reacher};
+use crate::world::{AnnotatedWorld, AnyWorld, Layout, See, Wanted};
+use crate::{Annotated, Domain, Environment, Frame, Refused, Spec, Step};
+use crate::{
+    baba, corridor, grid, manipulation, montezuma, pinball, probes, reacher, river, sokoban, taxi,
+    visual_taxi,
+};
 
 /// An environment of one of the kinds of observation and action that there are.
 pub enum AnyEnvironment {
@@ -14,6 +20,16 @@ pub enum AnyEnvironment {
     Vectors(Box<dyn Domain<Vec<f32>, Vec<f32>>>),
     /// Vectors seen, one of several choices done.
     Choices(Box<dyn Domain<Vec<f32>, usize>>),
+    /// Pictures seen, one of several choices done.
+    Frames(Box<dyn Domain<Frame, usize>>),
+}
+
+/// An environment whose observations tell which proto-goals hold.
+pub enum AnyAnnotated {
+    /// Vectors seen, one of several choices done.
+    Vectors(Box<dyn Domain<Annotated<Vec<f32>>, usize>>),
+    /// Pictures seen, one of several choices done.
+    Frames(Box<dyn Domain<Annotated<Frame>, usize>>),
 }
 
 impl AnyEnvironment {
@@ -22,6 +38,7 @@ impl AnyEnvironment {
         match self {
             Self::Vectors(env) => env.spec(),
             Self::Choices(env) => env.spec(),
+            Self::Frames(env) => env.spec(),
         }
     }
 }
@@ -32,20 +49,76 @@ pub struct Entry {
     pub name: &'static str,
     /// One sentence.
     pub about: &'static str,
-    pub(crate) make: fn() -> AnyEnvironment,
-    pub(crate) picture: fn() -> Option<Picture>,
+    pub(crate) make: Make,
+}
+
+/// What an environment of the registry is made of.
+pub(crate) enum Make {
+    /// Bodies, or what is simple enough to be made in one way only.
+    Bodies { make: fn() -> AnyEnvironment, picture: fn() -> Option<Picture> },
+    /// A world that can be seen in several ways.
+    World(fn() -> Box<dyn AnyWorld>),
+    /// A world that has proto-goals too.
+    Annotated(fn() -> Box<dyn AnnotatedWorld>),
 }
 
 impl Entry {
     /// Builds the environment.
     pub fn make(&self) -> AnyEnvironment {
-        (self.make)()
+        let made = match self.make {
+            Make::Bodies { make, .. } => Ok(make()),
+            Make::World(_) | Make::Annotated(_) => self.seen(&Options::default()),
+        };
+        made.expect("the worlds of this crate are seen in formats that exist")
+    }
+
+    /// Builds it as it is asked for, if it is a world.
+    fn seen(&self, options: &Options<'_>) -> Result<AnyEnvironment, MakeError> {
+        let wanted = self.wanted(options);
+        let made = match self.make {
+            Make::Bodies { make, .. } => Ok(make()),
+            Make::World(world) => world().seen(&wanted),
+            Make::Annotated(world) => world().seen(&wanted),
+        };
+        made.map_err(|why| MakeError::Format { name: self.name, why })
+    }
+
+    fn wanted(&self, options: &Options<'_>) -> Wanted {
+        Wanted { name: self.name, about: self.about, see: options.see, layout: options.layout }
+    }
+
+    /// Whether it takes an option.
+    fn takes(&self, option: &str) -> bool {
+        match (&self.make, option) {
+            (Make::World(_) | Make::Annotated(_), option) => matches!(option, "see" | "layout"),
+            (Make::Bodies { .. }, "see" | "layout") => false,
+            (Make::Bodies { .. }, "body") => {
+                Listed::find(self.name).is_some_and(|maze| !matches!(maze.walker, Walker::Point(_)))
+            }
+            (Make::Bodies { .. }, _) => Listed::find(self.name).is_some(),
+        }
     }
 }
 
 /// All environments, in the order in which they are listed. The entries stand beside their domains.
 pub fn entries() -> impl Iterator<Item = &'static Entry> {
-    [maze::ENTRIES, reacher::ENTRIES, corridor::ENTRIES, manipulation::ENTRIES].into_iter().flatten()
+    [
+        maze::ENTRIES,
+        reacher::ENTRIES,
+        corridor::ENTRIES,
+        manipulation::ENTRIES,
+        grid::ENTRIES,
+        sokoban::ENTRIES,
+        taxi::ENTRIES,
+        visual_taxi::ENTRIES,
+        pinball::ENTRIES,
+        river::ENTRIES,
+        baba::ENTRIES,
+        montezuma::ENTRIES,
+        probes::ENTRIES,
+    ]
+    .into_iter()
+    .flatten()
 }
 
 /// There is no environment of that name.
@@ -63,10 +136,11 @@ pub struct Unknown {
 /// # Errors
 /// [`Unknown`] names the nearest one, and all.
 pub fn make(name: &str) -> Result<AnyEnvironment, Unknown> {
-    entry(name).map(Entry::make)
+    named(name).map(Entry::make)
 }
 
-/// What a user may change of a maze. `Options::default()` changes nothing.
+/// What a user may change: of a maze what it consists of, of a world of cells or sprites how it is seen.
+/// `Options::default()` changes nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Options<'a> {
     /// Another map, as [`CellMap::parse`](inroads_sim::rigid::CellMap::parse) reads it.
@@ -79,6 +153,10 @@ pub struct Options<'a> {
     pub starts: Option<Starts<'a>>,
     /// Another body in the ant's place.
     pub body: Option<&'a Model>,
+    /// Another way of seeing a world.
+    pub see: Option<See>,
+    /// Other layouts of a world.
+    pub layout: Option<Layout>,
 }
 
 impl Options<'_> {
@@ -90,6 +168,8 @@ impl Options<'_> {
             ("goal", self.goal.is_some()),
             ("starts", self.starts.is_some()),
             ("body", self.body.is_some()),
+            ("see", self.see.is_some()),
+            ("layout", self.layout.is_some()),
         ]
         .into_iter()
         .filter_map(|(name, set)| set.then_some(name))
@@ -110,6 +190,20 @@ pub enum MakeError {
         /// The option.
         option: &'static str,
     },
+    /// The environment has no proto-goals.
+    #[error("`{name}` has no proto-goals; these have: {}", annotated())]
+    NoProtoGoals {
+        /// The environment.
+        name: &'static str,
+    },
+    /// A world cannot be seen like that.
+    #[error("`{name}`: {why}")]
+    Format {
+        /// The environment.
+        name: &'static str,
+        /// What is wrong.
+        why: FormatError,
+    },
     /// An option has a value that makes no maze.
     #[error("`{name}`: {why}")]
     Maze {
@@ -124,6 +218,7 @@ pub enum MakeError {
 fn takers(option: &str) -> &'static str {
     match option {
         "body" => "the mazes of the ant do",
+        "see" | "layout" => "worlds of cells and sprites do (door-key-8x8, say)",
         _ => "the mazes of point and ant do",
     }
 }
@@ -134,11 +229,59 @@ fn takers(option: &str) -> &'static str {
 /// [`MakeError`] names the option that the environment does not take, or says what is wrong with its value:
 /// with a map, line and column.
 pub fn make_with(name: &str, options: &Options<'_>) -> Result<AnyEnvironment, MakeError> {
-    let entry = entry(name)?;
-    match changed(entry, options)? {
-        Some(maze) => maze.build(options).map_err(|why| MakeError::Maze { name: entry.name, why }),
-        None => Ok(entry.make()),
+    let entry = taking(name, options)?;
+    match (&entry.make, changed(entry, options)) {
+        (Make::Bodies { .. }, Some(maze)) => {
+            maze.build(options).map_err(|why| MakeError::Maze { name: entry.name, why })
+        }
+        (Make::Bodies { make, .. }, None) => Ok(make()),
+        (Make::World(_) | Make::Annotated(_), _) => entry.seen(options),
     }
+}
+
+/// The same with the proto-goals beside what is seen.
+///
+/// # Errors
+/// As [`make_with`], and [`MakeError::NoProtoGoals`].
+pub fn make_annotated(name: &str, options: &Options<'_>) -> Result<AnyAnnotated, MakeError> {
+    let entry = taking(name, options)?;
+    let Make::Annotated(world) = entry.make else { return Err(MakeError::NoProtoGoals { name: entry.name }) };
+    world().annotated(&entry.wanted(options)).map_err(|why| MakeError::Format { name: entry.name, why })
+}
+
+/// What each proto-goal of an environment asks, in the order of its bits.
+///
+/// # Errors
+/// [`MakeError::Unknown`] and [`MakeError::NoProtoGoals`].
+pub fn proto_goals(name: &str) -> Result<Vec<String>, MakeError> {
+    let entry = named(name)?;
+    match entry.make {
+        Make::Annotated(world) => Ok(world().questions()),
+        Make::Bodies { .. } | Make::World(_) => Err(MakeError::NoProtoGoals { name: entry.name }),
+    }
+}
+
+/// Finds out the shortest solutions of an environment with a user's changes, where it is a world, and how random
+/// actions fare in it. How it is seen does not matter.
+///
+/// # Errors
+/// As [`make_with`].
+pub fn certify(
+    name: &str,
+    options: &Options<'_>,
+    how: &certificate::Options,
+) -> Result<Certificate, MakeError> {
+    let entry = taking(name, options)?;
+    let wanted = entry.wanted(options);
+    Ok(match entry.make {
+        Make::World(world) => world().certify(&wanted, how),
+        Make::Annotated(world) => world().certify(&wanted, how),
+        Make::Bodies { .. } => match make_with(name, options)? {
+            AnyEnvironment::Vectors(mut env) => certificate::environment(&mut env, how),
+            AnyEnvironment::Choices(mut env) => certificate::environment(&mut env, how),
+            AnyEnvironment::Frames(mut env) => certificate::environment(&mut env, how),
+        },
+    })
 }
 
 /// The environment with a user's changes seen from above, for figures; none when there is nothing to draw.
@@ -146,34 +289,40 @@ pub fn make_with(name: &str, options: &Options<'_>) -> Result<AnyEnvironment, Ma
 /// # Errors
 /// As [`make_with`].
 pub fn picture_with(name: &str, options: &Options<'_>) -> Result<Option<Picture>, MakeError> {
-    let entry = entry(name)?;
-    match changed(entry, options)? {
-        Some(maze) => {
+    let entry = taking(name, options)?;
+    match (&entry.make, changed(entry, options)) {
+        (Make::Bodies { .. }, Some(maze)) => {
             maze.picture(options).map(Some).map_err(|why| MakeError::Maze { name: entry.name, why })
         }
-        None => Ok((entry.picture)()),
+        (Make::Bodies { picture, .. }, None) => Ok(picture()),
+        (Make::World(_) | Make::Annotated(_), _) => Ok(None),
+    }
+}
+
+/// The entry of that name, if it takes all options that are set.
+fn taking(name: &str, options: &Options<'_>) -> Result<&'static Entry, MakeError> {
+    let entry = named(name)?;
+    match options.set().find(|option| !entry.takes(option)) {
+        Some(option) => Err(MakeError::Option { name: entry.name, option }),
+        None => Ok(entry),
     }
 }
 
 /// The maze that the options change; none when they change nothing.
-fn changed(entry: &'static Entry, options: &Options<'_>) -> Result<Option<Listed>, MakeError> {
-    let maze = Listed::find(entry.name);
-    let takes = |option: &str| match (maze, option) {
-        (None, _) => false,
-        (Some(maze), "body") => !matches!(maze.walker, Walker::Point(_)),
-        (Some(_), _) => true,
-    };
-    match options.set().find(|option| !takes(option)) {
-        Some(option) => Err(MakeError::Option { name: entry.name, option }),
-        None => Ok(maze.filter(|_| *options != Options::default())),
-    }
+fn changed(entry: &Entry, options: &Options<'_>) -> Option<Listed> {
+    Listed::find(entry.name).filter(|_| *options != Options::default())
 }
 
-fn entry(name: &str) -> Result<&'static Entry, Unknown> {
+fn named(name: &str) -> Result<&'static Entry, Unknown> {
     entries().find(|entry| entry.name == name).ok_or_else(|| Unknown {
         name: name.to_owned(),
         nearest: nearest(name, entries().map(|entry| entry.name)),
     })
+}
+
+fn annotated() -> String {
+    let have = entries().filter(|entry| matches!(entry.make, Make::Annotated(_)));
+    have.map(|entry| entry.name).collect::<Vec<_>>().join(", ")
 }
 
 fn all() -> String {
@@ -215,7 +364,7 @@ impl<E: Environment + ?Sized> Environment for Box<E> {
         (**self).step(action)
     }
 
-    fn observe(&self, out: &mut Self::Observation) {
+    fn observe(&mut self, out: &mut Self::Observation) {
         (**self).observe(out);
     }
 
@@ -242,6 +391,7 @@ mod tests {
             let verdict = match env {
                 AnyEnvironment::Vectors(mut env) => check(&mut env, options),
                 AnyEnvironment::Choices(mut env) => check(&mut env, options),
+                AnyEnvironment::Frames(mut env) => check(&mut env, options),
             };
             verdict.unwrap_or_else(|fault| panic!("{}: {fault}", entry.name));
         }

@@ -1,6 +1,6 @@
 //! What an agent may know of a domain, as data.
 
-use std::borrow::Cow;
+use std::{borrow::Cow, sync::Arc};
 
 use crate::{Refused, Step};
 
@@ -44,18 +44,30 @@ impl Dimension {
 /// The shape and range of observations or actions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Space {
-    /// A vector of numbers.
-    Box(Vec<Dimension>),
+    /// A vector of numbers. Clones share what there is to say of them: of a large grid it weighs more than all the rest.
+    Box(Arc<[Dimension]>),
     /// One of `n` choices, `0..n`.
     Discrete(usize),
+    /// A picture.
+    Frame {
+        /// Pixels a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Bytes a pixel.
+        channels: u32,
+    },
 }
 
 impl Space {
-    /// Number of components of a vector; 1 for a choice.
+    /// Number of components of a vector or a picture; 1 for a choice.
     pub fn len(&self) -> usize {
         match self {
             Self::Box(dimensions) => dimensions.len(),
             Self::Discrete(_) => 1,
+            Self::Frame { width, height, channels } => {
+                [*width, *height, *channels].map(|n| n as usize).iter().product()
+            }
         }
     }
 
@@ -64,11 +76,19 @@ impl Space {
         self.len() == 0
     }
 
-    /// The dimensions of a vector; none for a choice.
+    /// The dimensions of a vector; none for a choice or a picture.
     pub fn dimensions(&self) -> &[Dimension] {
         match self {
             Self::Box(dimensions) => dimensions,
-            Self::Discrete(_) => &[],
+            Self::Discrete(_) | Self::Frame { .. } => &[],
+        }
+    }
+
+    /// How many choices there are; none where something else is done.
+    pub fn choices(&self) -> usize {
+        match self {
+            Self::Discrete(choices) => *choices,
+            Self::Box(_) | Self::Frame { .. } => 0,
         }
     }
 
@@ -106,7 +126,7 @@ impl Space {
                 low: 0.0,
                 high: n.saturating_sub(1) as f32,
             }),
-            Self::Box(dimensions) => Err(Refused::Shape { expected: dimensions.len(), found: 1 }),
+            other => Err(Refused::Shape { expected: other.len(), found: 1 }),
         }
     }
 }
@@ -165,5 +185,22 @@ impl Spec {
     /// Whether an episode that ended with this step succeeded.
     pub fn succeeded(&self, last: &Step) -> bool {
         last.end == Some(crate::End::Terminated) && last.reward >= self.success_reward
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_large_picture_has_more_components_than_32_bits_count() {
+        let frame = Space::Frame { width: 65_280, height: 65_280, channels: 3 };
+        assert_eq!(frame.len() as u64, 12_784_435_200);
+    }
+
+    #[test]
+    fn clones_share_what_there_is_to_say_of_numbers() {
+        let space = Space::Box([Dimension::angle("heading")].into());
+        assert!(std::ptr::eq(space.clone().dimensions(), space.dimensions()));
     }
 }

@@ -1,13 +1,15 @@
-//! Several copies of a domain, stepped together into one contiguous batch.
+//! Several copies of a domain, stepped together into one contiguous batch: of numbers, or of the bytes of pictures.
 //!
 //! What a copy does is a function of the seed, its number and its actions alone, so the batch is the same for
 //! any number of threads. Threads exist with the feature `threads` only; without it all copies are stepped
 //! one after the other.
 
 mod batch;
+mod row;
 mod slot;
 
 pub use batch::Batch;
+pub use row::Row;
 
 use self::slot::{Rows, Slot};
 use crate::{Environment, Refused, Seed, Space, Spec};
@@ -91,6 +93,17 @@ impl Admissible for usize {
     }
 }
 
+/// A part of the batch, its copies, what they write into, and the actions from its first copy's on.
+type Walk<'a, E> = (
+    batch::Part<'a, Number<E>>,
+    &'a mut [Slot<E>],
+    &'a mut <E as Environment>::Observation,
+    &'a [<E as Environment>::Action],
+);
+
+/// What an observation of the domain consists of.
+type Number<E> = <<E as Environment>::Observation as Row>::Number;
+
 /// Several copies of a domain.
 ///
 /// ```
@@ -101,17 +114,19 @@ impl Admissible for usize {
 /// assert_eq!((batch.last(0), batch.last(1)), (None, Some(&[1.0][..])));
 /// # Ok::<(), inroads_envs::vector::VectorError>(())
 /// ```
-pub struct VectorEnvironment<E> {
+pub struct VectorEnvironment<E: Environment<Observation: Row>> {
     slots: Vec<Slot<E>>,
-    batch: Batch,
+    batch: Batch<Number<E>>,
     auto: AutoReset,
+    /// What copies write their observations into, one a part.
+    seen: Vec<E::Observation>,
     #[cfg(feature = "threads")]
     pool: Option<rayon::ThreadPool>,
 }
 
 impl<E> VectorEnvironment<E>
 where
-    E: Environment<Observation = Vec<f32>, Action: Admissible + Sync> + Send,
+    E: Environment<Observation: Row, Action: Admissible + Sync> + Send,
 {
     /// Takes copies of one domain and begins the first episode of each. Episode `k` of copy `i` has a seed
     /// that is a function of (`seed`, i, k).
@@ -131,10 +146,11 @@ where
             slots,
             batch,
             auto,
+            seen: Vec::new(),
             #[cfg(feature = "threads")]
             pool: None,
         };
-        made.each(&[], |slot, rows, _| slot.begin(rows));
+        made.each(&[], |slot, rows, _, seen| slot.begin(rows, seen));
         Ok(made)
     }
 
@@ -168,7 +184,7 @@ where
     }
 
     /// What the last step, or the beginning, left.
-    pub fn batch(&self) -> &Batch {
+    pub fn batch(&self) -> &Batch<Number<E>> {
         &self.batch
     }
 
@@ -176,7 +192,7 @@ where
     ///
     /// # Errors
     /// [`VectorError::Actions`], or [`VectorError::Refused`] with the first copy at fault.
-    pub fn step(&mut self, actions: &[E::Action]) -> Result<&Batch, VectorError> {
+    pub fn step(&mut self, actions: &[E::Action]) -> Result<&Batch<Number<E>>, VectorError> {
         let (expected, found) = (self.slots.len(), actions.len());
         if expected != found {
             return Err(VectorError::Actions { expected, found });
@@ -185,9 +201,9 @@ where
         for (copy, (slot, action)) in self.slots.iter().zip(actions).enumerate() {
             slot.admit(action, auto).map_err(|refused| VectorError::Refused { copy, refused })?;
         }
-        self.each(actions, move |slot, rows, action| {
+        self.each(actions, move |slot, rows, action, seen| {
             if let Some(action) = action {
-                slot.step(action, auto, rows);
+                slot.step(action, auto, rows, seen);
             }
         });
         // A domain may still refuse for a reason of its own.
@@ -202,7 +218,7 @@ where
     ///
     /// # Errors
     /// [`VectorError::NoCopy`]; nothing has changed then.
-    pub fn restart(&mut self, copies: &[usize]) -> Result<&Batch, VectorError> {
+    pub fn restart(&mut self, copies: &[usize]) -> Result<&Batch<Number<E>>, VectorError> {
         let count = self.slots.len();
         if let Some(&copy) = copies.iter().find(|&&copy| copy >= count) {
             return Err(VectorError::NoCopy { copy, count });
@@ -210,9 +226,9 @@ where
         for slot in copies {
             self.slots[*slot].call();
         }
-        self.each(&[], |slot, rows, _| {
+        self.each(&[], |slot, rows, _, seen| {
             if slot.called() {
-                slot.begin(rows);
+                slot.begin(rows, seen);
             }
         });
         Ok(&self.batch)
@@ -222,15 +238,18 @@ where
     fn each(
         &mut self,
         actions: &[E::Action],
-        work: impl Fn(&mut Slot<E>, Rows<'_>, Option<&E::Action>) + Sync,
+        work: impl Fn(&mut Slot<E>, Rows<'_, Number<E>>, Option<&E::Action>, &mut E::Observation) + Sync,
     ) {
         let part = self.part();
-        let parts = self.batch.parts(part).zip(self.slots.chunks_mut(part)).enumerate();
-        let parts =
-            parts.map(|(index, (rows, slots))| (rows, slots, actions.get(index * part..).unwrap_or(&[])));
-        let walk = |(rows, slots, actions): (batch::Part<'_>, &mut [Slot<E>], &[E::Action])| {
+        self.seen.resize_with(self.slots.len().div_ceil(part), E::Observation::default);
+        let copies = self.slots.chunks_mut(part).zip(&mut self.seen);
+        let parts = self.batch.parts(part).zip(copies).enumerate();
+        let parts = parts.map(|(index, (rows, (slots, seen)))| {
+            (rows, slots, seen, actions.get(index * part..).unwrap_or(&[]))
+        });
+        let walk = |(rows, slots, seen, actions): Walk<'_, E>| {
             for (index, (slot, rows)) in slots.iter_mut().zip(rows.rows()).enumerate() {
-                work(slot, rows, actions.get(index));
+                work(slot, rows, actions.get(index), seen);
             }
         };
         #[cfg(feature = "threads")]

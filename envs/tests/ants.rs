@@ -15,7 +15,7 @@ fn maze(maze: &Maze<'_>) -> AntMaze {
     AntMaze::new(maze).unwrap()
 }
 
-fn seen(env: &impl Environment<Observation = Vec<f32>>) -> Vec<f32> {
+fn seen(env: &mut impl Environment<Observation = Vec<f32>>) -> Vec<f32> {
     let mut seen = Vec::new();
     env.observe(&mut seen);
     seen
@@ -37,13 +37,13 @@ fn the_ant_sees_its_positions_and_velocities_in_mujoco_s_order() {
     let driven: Vec<_> = spec.action.dimensions().iter().map(|d| d.name.as_ref()).collect();
     assert_eq!(driven[..4], ["shin 4", "foot 4", "shin 1", "foot 1"]);
     let expected = [&env.configuration().q[..], &env.configuration().v[..]].concat();
-    assert_eq!(seen(&env), expected);
+    assert_eq!(seen(&mut env), expected);
 }
 
 #[test]
 fn starts_are_noisy_within_the_reset_of_gymnasium() {
     let mut env = maze(&ANT_U_MAZE);
-    let starts: Vec<_> = (0..300).map(|seed| (env.reset(seed), seen(&env)).1).collect();
+    let starts: Vec<_> = (0..300).map(|seed| (env.reset(seed), seen(&mut env)).1).collect();
     let near = |index: usize, mean: f32| starts.iter().all(|s| (s[index] - mean).abs() <= 0.1);
     assert!(near(0, 0.0) && near(1, 0.0) && near(2, 0.75) && (7..15).all(|joint| near(joint, 0.0)));
     let spread = |index: usize| starts.iter().map(|s| s[index] * s[index]).sum::<f32>() / 300.0;
@@ -52,13 +52,13 @@ fn starts_are_noisy_within_the_reset_of_gymnasium() {
     assert!((15..29).all(|index| (0.007..0.013).contains(&spread(index))));
     let length = |s: &Vec<f32>| s[3..7].iter().map(|x| x * x).sum::<f32>();
     assert!(starts.iter().all(|s| (length(s) - 1.0).abs() < 1e-5));
-    assert!(starts[0] != starts[1] && starts[0] == (env.reset(0), seen(&env)).1);
+    assert!(starts[0] != starts[1] && starts[0] == (env.reset(0), seen(&mut env)).1);
 }
 
 #[test]
 fn ants_start_anywhere_in_the_arena_without_touching_its_walls() {
     let mut env = maze(&ANT_REACHER);
-    let starts: Vec<_> = (0..500).map(|seed| (env.reset(seed), seen(&env)).1).collect();
+    let starts: Vec<_> = (0..500).map(|seed| (env.reset(seed), seen(&mut env)).1).collect();
     assert!(starts.iter().all(|s| s[0].abs() < 9.7 && s[1].abs() < 9.7));
     assert!(starts.iter().all(|s| s[0].hypot(s[1]) > 0.6 - 0.15));
     for corner in [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]] {
@@ -68,14 +68,14 @@ fn ants_start_anywhere_in_the_arena_without_touching_its_walls() {
     // The corners from which section 4.2.3 evaluates.
     env.set_starts(Starts::At(&[[9.0, 9.0], [9.0, -9.0], [-9.0, 9.0], [-9.0, -9.0]])).unwrap();
     env.reset(0);
-    assert!((seen(&env)[0].abs() - 9.0).abs() <= 0.1);
+    assert!((seen(&mut env)[0].abs() - 9.0).abs() <= 0.1);
 }
 
 #[test]
 fn an_ant_in_a_wall_is_refused() {
     let mut env = maze(&ANT_U_MAZE);
     env.reset(0);
-    let before = seen(&env);
+    let before = seen(&mut env);
     let mut inside = env.configuration().clone();
     // The ant's feet reach 0.9 m along x and y, the wall begins at y = 2.
     inside.q[1] = 1.5;
@@ -84,7 +84,7 @@ fn an_ant_in_a_wall_is_refused() {
     assert!(matches!(env.restore(&inside), Err(StateError::InWall { .. })));
     inside.q.pop();
     assert!(matches!(env.restore(&inside), Err(StateError::Length { .. })));
-    assert_eq!(seen(&env), before);
+    assert_eq!(seen(&mut env), before);
     assert!(matches!(
         env.set_starts(Starts::At(&[[0.0, 1.5]])),
         Err(MazeError::Start { at: [0.0, 1.5], .. })
@@ -152,13 +152,14 @@ fn steps_pay_what_the_pure_function_of_the_observation_says() {
         for step in 0..400 {
             if step % 20 == 0 {
                 // Just beyond the tolerance: a push either way decides.
-                let goal = [seen(&env)[0] + 0.601, seen(&env)[1]];
+                let goal = [seen(&mut env)[0] + 0.601, seen(&mut env)[1]];
                 env.set_goal(&goal).unwrap();
             }
             let paid = env.step(&action(&mut rng)).unwrap();
-            env.achieved(&seen(&env), &mut achieved);
+            let now = seen(&mut env);
+            env.achieved(&now, &mut achieved);
             assert_eq!(env.reward(&achieved, env.goal()), paid);
-            assert_eq!(achieved, seen(&env)[..2]);
+            assert_eq!(achieved, seen(&mut env)[..2]);
             if paid.end.is_some() {
                 (reached, seed) = (reached + 1, seed + 1);
                 env.reset(seed);
@@ -177,7 +178,7 @@ fn timed_ants_see_a_thousandth_a_step() {
     for seed in 0..2 {
         env.reset(seed);
         for step in 0..20 {
-            assert_eq!((seen(&env).len(), seen(&env)[29]), (30, 0.001 * step as f32));
+            assert_eq!((seen(&mut env).len(), seen(&mut env)[29]), (30, 0.001 * step as f32));
             env.step(&action(&mut rng)).unwrap();
         }
     }
@@ -202,7 +203,7 @@ fn a_user_s_body_stands_where_the_ant_stands() {
     };
     env.reset(0);
     env.step(&vec![1.0; 6]).unwrap();
-    assert_eq!((seen(&env).len(), env.spec().observation.len()), (25, 25));
+    assert_eq!((seen(&mut env).len(), env.spec().observation.len()), (25, 25));
 }
 
 #[test]
@@ -210,19 +211,19 @@ fn a_body_that_breaks_down_truncates_its_episode_and_the_next_one_is_sound() {
     let monster = ant::model(1e12);
     let mut env = AntMaze::walked_by(&ANT_U_MAZE, &monster).unwrap();
     env.reset(0);
-    let first = seen(&env);
+    let first = seen(&mut env);
     let last = (0..100).map(|_| env.step(&vec![1.0; 8]).unwrap()).find(|step| step.end.is_some()).unwrap();
     assert_eq!((last.end, last.reward), (Some(End::Truncated), -1.0));
     assert!(env.fault().is_some_and(|fault| fault.contains("ant")), "{:?}", env.fault());
-    assert!(seen(&env).iter().all(|x| x.is_finite()), "what was last seen stays");
+    assert!(seen(&mut env).iter().all(|x| x.is_finite()), "what was last seen stays");
     assert!(env.step(&vec![0.0; 8]).is_err());
     env.reset(0);
-    assert_eq!((seen(&env), env.fault()), (first, None));
+    assert_eq!((seen(&mut env), env.fault()), (first, None));
     let mut fresh = AntMaze::walked_by(&ANT_U_MAZE, &monster).unwrap();
     fresh.reset(0);
     for _ in 0..30 {
         assert_eq!(env.step(&vec![0.0; 8]), fresh.step(&vec![0.0; 8]));
-        assert_eq!(seen(&env), seen(&fresh));
+        assert_eq!(seen(&mut env), seen(&mut fresh));
     }
 }
 
@@ -236,7 +237,7 @@ fn no_strength_takes_a_body_out_of_the_maze() {
         env.reset(seed);
         for _ in 0..300 {
             let end = env.step(&action(&mut rng)).unwrap().end;
-            let now = seen(&env);
+            let now = seen(&mut env);
             assert!(!map.is_wall([f64::from(now[0]), f64::from(now[1])]), "{gear} N m: at {:?}", &now[..3]);
             if end.is_some() {
                 faults += u32::from(env.fault().is_some());
@@ -288,9 +289,9 @@ fn bodies_and_maps_that_cannot_be_are_refused_by_name() {
 fn scenes_and_pictures_show_the_ant_and_its_heading() {
     let mut env = maze(&ANT_MEDIUM_MAZE);
     env.reset(0);
-    let before = seen(&env);
+    let before = seen(&mut env);
     let picture = env.picture();
-    assert_eq!(seen(&env), before, "nobody looked");
+    assert_eq!(seen(&mut env), before, "nobody looked");
     let resting = picture.observation_at([4.0, 0.0]);
     assert_eq!((resting.len(), resting[0]), (29, 4.0));
     assert!(picture.heading(&resting).abs() < 0.1 && (0.5..0.7).contains(&resting[2]), "{resting:?}");
@@ -298,8 +299,8 @@ fn scenes_and_pictures_show_the_ant_and_its_heading() {
     let mut turned = env.configuration().clone();
     turned.q[3..7].copy_from_slice(&[0.5_f32.cos(), 0.0, 0.0, 0.5_f32.sin()]);
     env.restore(&turned).unwrap();
-    assert!((picture.heading(&seen(&env)) - 1.0).abs() < 1e-5);
-    let scene = env.scene();
+    assert!((picture.heading(&seen(&mut env)) - 1.0).abs() < 1e-5);
+    let scene = env.drawing().bodies().unwrap();
     assert_eq!((scene.marks.len(), scene.marks[0].at), (1, [20.0, 20.0]));
     assert_eq!(scene.solids.len(), picture.walls.len() + 13);
 }

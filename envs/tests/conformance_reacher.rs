@@ -67,7 +67,7 @@ impl Record {
     }
 }
 
-fn observation(reacher: &Reacher) -> Vec<f32> {
+fn observation(reacher: &mut Reacher) -> Vec<f32> {
     let mut seen = Vec::new();
     reacher.observe(&mut seen);
     seen
@@ -101,7 +101,7 @@ fn conformance_reacher_joints_stay_within_2_percent_of_their_travel_open_loop() 
 fn conformance_reacher_observations_of_the_recorded_states_are_the_recorded_ones() {
     for record in Record::all() {
         for (i, theirs) in record.observations.iter().enumerate() {
-            let ours = observation(&record.after(i));
+            let ours = observation(&mut record.after(i));
             assert_eq!((ours.len(), ours[10]), (11, 0.0));
             for (index, (ours, theirs)) in ours.iter().zip(theirs).enumerate() {
                 let tolerance = if index < 8 { PRECISION * theirs.abs().max(1.0) } else { LATE };
@@ -129,7 +129,7 @@ fn conformance_reacher_rewards_of_the_recorded_steps_are_the_recorded_ones() {
             assert!((ours - theirs).abs() <= PRECISION, "seed {}, step {i}: {ours} {theirs}", record.seed);
             // What the environment pays is that, at its own state.
             let paid = reacher.step(action).unwrap();
-            let seen = observation(&reacher);
+            let seen = observation(&mut reacher);
             assert_eq!(paid, Task::Dense.pay(action, [seen[8], seen[9]]));
         }
     }

@@ -2,7 +2,7 @@
 //! example `grasps` writes them).
 
 use inroads_envs::{
-    End, Environment, Snapshot, Sweep,
+    End, Environment, Refused, Snapshot, Step, Sweep,
     manipulation::{
         DOOR, GRASPS, HAND, HANDLE_TO_HAND, JOINT, LEVER, LIMIT, Manipulation, SLIDE, Spread, Task, WRISTS,
         limited, oracle,
@@ -35,10 +35,17 @@ fn grasps(task: &Task, good: bool, count: usize) -> Vec<usize> {
 }
 
 /// What the oracle does now.
-fn advice(env: &Manipulation) -> Vec<f32> {
+fn advice(env: &mut impl Environment<Observation = Vec<f32>>) -> Vec<f32> {
     let mut seen = Vec::new();
     env.observe(&mut seen);
-    oracle::act(env.task(), &seen)
+    let task = TASKS.into_iter().find(|task| task.name == env.spec().name).unwrap();
+    oracle::act(task, &seen)
+}
+
+/// A step as the oracle advises.
+fn advised(env: &mut impl Environment<Observation = Vec<f32>, Action = Vec<f32>>) -> Result<Step, Refused> {
+    let action = advice(env);
+    env.step(&action)
 }
 
 /// An action that keeps all stiff and closed and goes nowhere.
@@ -83,7 +90,7 @@ fn rewards_sum_to_the_joints_best_progress_and_success_terminates() {
             let start = env.inner().reading().joint;
             let (mut sum, mut best) = (0.0, start);
             let last = loop {
-                let step = env.step(&advice(env.inner())).unwrap();
+                let step = advised(&mut env).unwrap();
                 sum += step.reward;
                 best = env.inner().reading().joint.max(best);
                 if step.end.is_some() {
@@ -102,7 +109,7 @@ fn a_bad_grasp_ends_with_the_time_limit() {
         for grasp in grasps(task, false, 2) {
             let mut env = limited(task).unwrap();
             env.begin(grasp);
-            let ends = (1..=LIMIT).map(|_| env.step(&advice(env.inner())).unwrap().end);
+            let ends = (1..=LIMIT).map(|_| advised(&mut env).unwrap().end);
             assert_eq!(ends.last().unwrap(), Some(End::Truncated), "{} {grasp}", task.name);
             assert!(env.inner().reading().joint <= task.success && env.fault().is_none());
         }
@@ -134,7 +141,7 @@ fn closed_fingers_press_on_the_handle_from_both_sides_and_do_not_sink_in() {
             // A finger's motor has 20 N; the rest of a contact's force is the hand's, caught in between.
             held += usize::from(env.bench().touch().iter().all(|force| (10.0..60.0).contains(force)));
             assert!(env.bench().depth() < 0.003, "{} {grasp}: {} m", task.name, env.bench().depth());
-            while env.step(&advice(&env)).is_ok_and(|step| step.end.is_none()) {
+            while advised(&mut env).is_ok_and(|step| step.end.is_none()) {
                 assert!(env.bench().depth() < 0.005, "{} {grasp}: {} m", task.name, env.bench().depth());
             }
         }
@@ -170,13 +177,13 @@ fn what_follows_a_load_is_bit_for_bit_what_followed_the_save() {
         env.begin(grasp);
         other.begin((grasp + 77) % GRASPS);
         for _ in 0..5 {
-            env.step(&advice(env.inner())).unwrap();
+            advised(&mut env).unwrap();
         }
         let saved = env.save();
         let follow = |env: &mut inroads_envs::TimeLimit<Manipulation>| {
             let mut trace = Vec::new();
             for k in 0..60 {
-                let mut action = advice(env.inner());
+                let mut action = advice(env);
                 action[k % 13] = -0.5;
                 let Ok(step) = env.step(&action) else { break };
                 let mut seen = Vec::new();
@@ -218,7 +225,7 @@ fn observations_agree_with_the_readings() {
         let mut env = Manipulation::new(task).unwrap();
         env.begin(grasps(task, true, 1)[0]);
         for _ in 0..4 {
-            env.step(&advice(&env)).unwrap();
+            advised(&mut env).unwrap();
         }
         let (mut seen, now) = (Vec::new(), env.reading());
         env.observe(&mut seen);

@@ -1,12 +1,18 @@
 //! Vector environments: the same as stepping each copy alone, for any number of threads.
 
 use inroads_envs::{
-    Domain, End, Environment, Refused, Seed,
+    Domain, End, Environment, Frame, Refused, Seed, TimeLimit,
     corridor::Corridor,
     registry::{self, AnyEnvironment},
-    vector::{AutoReset, VectorEnvironment, VectorError},
+    vector::{AutoReset, Row, VectorEnvironment, VectorError},
+    world::{Layout, Pictured},
 };
+use inroads_sim::raster::Format;
 use rand::RngExt;
+
+#[allow(unreachable_pub, dead_code)] // also a part of the library's own tests
+#[path = "support/nine.rs"]
+mod nine;
 
 type Vectors = Box<dyn Domain<Vec<f32>, Vec<f32>>>;
 
@@ -31,15 +37,16 @@ fn trace<E>(
     actions: impl Fn(u64) -> Vec<E::Action>,
 ) -> Vec<String>
 where
-    E: Environment<Observation = Vec<f32>, Action: inroads_envs::vector::Admissible + Sync> + Send,
+    E: Environment<Observation: Row, Action: inroads_envs::vector::Admissible + Sync> + Send,
 {
     let mut told = vec![format!("{:?}", envs.batch())];
     for step in 0..steps {
         let batch = envs.step(&actions(step)).unwrap();
-        let bits: Vec<_> = batch.observations().iter().chain(batch.rewards()).map(|x| x.to_bits()).collect();
-        let lasts: Vec<_> =
-            (0..batch.rewards().len()).map(|copy| batch.last(copy).map(<[f32]>::to_vec)).collect();
-        told.push(format!("{bits:?} {:?} {:?} {lasts:?}", batch.ends(), batch.began()));
+        let rewards: Vec<_> = batch.rewards().iter().map(|x| x.to_bits()).collect();
+        let lasts: Vec<_> = (0..rewards.len()).map(|copy| batch.last(copy)).collect();
+        let (seen, ends, began) = (batch.observations(), batch.ends(), batch.began());
+        // Debug tells a float's bits, but for those of a NaN.
+        told.push(format!("{seen:?} {rewards:?} {ends:?} {began:?} {lasts:?}"));
     }
     told
 }
@@ -169,6 +176,51 @@ fn the_same_seed_gives_the_same_batches() {
     }
 }
 
+/// Nine cells as pictures, 12 × 12 in colour.
+fn pictures(copies: usize) -> Vec<TimeLimit<Pictured<nine::Nine>>> {
+    let picture =
+        || Pictured::new(nine::Nine::new(true), Layout::Random, Format::NATIVE).expect("as large as it is");
+    (0..copies).map(|_| TimeLimit::new(picture(), 12)).collect()
+}
+
+/// Choices of all copies at a step.
+fn choices(copies: usize, step: u64) -> Vec<usize> {
+    let mut rng = Seed(9).stream("choices", step);
+    (0..copies).map(|_| rng.random_range(0..4)).collect()
+}
+
+#[test]
+fn pictures_of_copies_lie_one_after_the_other_and_are_those_of_each_alone() {
+    const COPIES: usize = 4;
+    let mut envs = VectorEnvironment::new(pictures(COPIES), 5, AutoReset::SameStep).unwrap();
+    let mut alone = pictures(COPIES);
+    let mut episodes = [0; COPIES];
+    let mut begin = |copy: usize, env: &mut TimeLimit<_>| {
+        env.reset(Seed(Seed(5).number("copy", copy as u64)).number("episode", episodes[copy]));
+        episodes[copy] += 1;
+    };
+    alone.iter_mut().enumerate().for_each(|(copy, env)| begin(copy, env));
+    let mut frame = Frame::default();
+    for step in 0..200 {
+        let choices = choices(COPIES, step);
+        let batch = envs.step(&choices).unwrap();
+        assert_eq!((batch.width(), batch.observations().len()), (12 * 12 * 3, COPIES * 12 * 12 * 3));
+        for (copy, env) in alone.iter_mut().enumerate() {
+            let answer = env.step(&choices[copy]).unwrap();
+            env.observe(&mut frame);
+            assert_eq!((batch.rewards()[copy], batch.ends()[copy]), (answer.reward, answer.end));
+            assert_eq!(batch.last(copy), answer.end.map(|_| frame.bytes()));
+            if answer.end.is_some() {
+                begin(copy, env);
+                env.observe(&mut frame);
+            }
+            assert_eq!(batch.observation(copy), frame.bytes());
+            assert_eq!(batch.observations()[copy * batch.width()..][..batch.width()], *frame.bytes());
+        }
+    }
+    assert!(episodes.iter().all(|&episodes| episodes > 10), "{episodes:?}");
+}
+
 #[cfg(feature = "threads")]
 #[test]
 fn the_batches_are_the_same_for_any_number_of_threads() {
@@ -184,6 +236,21 @@ fn the_batches_are_the_same_for_any_number_of_threads() {
         let one = play(1);
         for threads in [2, 3, 8] {
             assert_eq!(play(threads), one, "{name} on {threads} threads");
+        }
+    }
+}
+
+#[cfg(feature = "threads")]
+#[test]
+fn the_pictures_are_the_same_for_any_number_of_threads() {
+    for (copies, auto) in [(7, AutoReset::SameStep), (4, AutoReset::NextStep), (1, AutoReset::SameStep)] {
+        let play = |threads| {
+            let envs = VectorEnvironment::new(pictures(copies), 3, auto).unwrap();
+            trace(envs.on_threads(threads).unwrap(), 200, |step| choices(copies, step))
+        };
+        let one = play(1);
+        for threads in [2, 3] {
+            assert_eq!(play(threads), one, "{copies} copies on {threads} threads");
         }
     }
 }

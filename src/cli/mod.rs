@@ -1,7 +1,9 @@
 //! The command line. Arguments are parsed here; each command is a file.
 
+mod certify;
 mod evaluate;
 mod list;
+mod play;
 mod plot;
 mod progress;
 mod render;
@@ -50,6 +52,10 @@ enum Command {
     },
     /// Draw one frozen episode of a run, or random actions in an environment
     Render(render::Arguments),
+    /// Play in the terminal
+    Play(play::Arguments),
+    /// Find an environment's shortest solution, and how often random actions succeed
+    Certify(certify::Arguments),
 }
 
 /// Burn on one thread, unless `RAYON_NUM_THREADS` says otherwise. The products of such small networks are slower on
@@ -75,6 +81,8 @@ pub fn main() -> ExitCode {
         }
         Command::Plot { runs, out } => plot::plot(&runs, &out),
         Command::Render(arguments) => render::render(&arguments),
+        Command::Play(arguments) => play::play(&arguments),
+        Command::Certify(arguments) => certify::certify(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -64,7 +64,8 @@ pub(super) fn render(arguments: &Arguments) -> Done {
 
 fn of_run(arguments: &Arguments) -> Result<PathBuf, RunError> {
     if arguments.world.any() {
-        let why = "a run keeps the map, scale and body that it was trained with; leave them out".to_owned();
+        let why = "a run keeps the map, scale, body, see and layout that it was trained with; leave them out"
+            .to_owned();
         return Err(ConfigError::Impossible { table: "the run".into(), why }.into());
     }
     let mut run = Run::open(Path::new(&arguments.what), None)?;

@@ -117,7 +117,8 @@ fn agree(arguments: &Arguments, config: &Config) -> Result<(), ConfigError> {
     let mut world = settings.world.clone();
     arguments.world.put(&mut world)?;
     if world != settings.world {
-        let why = "the run has another map, scale or body; leave them out, or begin another run".to_owned();
+        let why = "the run has another map, scale, body, see or layout; leave them out, or begin another run"
+            .to_owned();
         return Err(ConfigError::Impossible { table: "the resumed run".into(), why });
     }
     let asked = [

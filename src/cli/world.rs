@@ -1,4 +1,4 @@
-//! The arguments that put a maze or a body of the user's own in the place of the environment's.
+//! The arguments that change an environment: a maze or a body of the user's own, a way of seeing, layouts.
 
 use std::{
     fs,
@@ -19,12 +19,20 @@ pub(super) struct Arguments {
     /// An MJCF file with the body that walks in the maze
     #[arg(long)]
     body: Option<PathBuf>,
+    /// How a world of cells or sprites is seen: symbols; rgb or grey (luma) as drawn; rgb:84 or grey:84 (mean of the
+    /// channels) as the thesis' author scales; atari (luma, 84 by 84)
+    #[arg(long)]
+    see: Option<String>,
+    /// Its layouts: random, fixed:42 (one for all episodes), map:42 (one map, starts anywhere)
+    #[arg(long)]
+    layout: Option<String>,
 }
 
 impl Arguments {
     /// Whether any was given.
     pub(super) fn any(&self) -> bool {
-        self.map.is_some() || self.scale.is_some() || self.body.is_some()
+        let Self { map, scale, body, see, layout } = self;
+        map.is_some() || scale.is_some() || body.is_some() || see.is_some() || layout.is_some()
     }
 
     /// Puts what was given in the place of what was there.
@@ -39,6 +47,11 @@ impl Arguments {
             world.body = read(path)?;
         }
         world.scale = self.scale.unwrap_or(world.scale);
+        for (own, given) in [(&mut world.see, &self.see), (&mut world.layout, &self.layout)] {
+            if let Some(given) = given {
+                own.clone_from(given);
+            }
+        }
         Ok(())
     }
 }

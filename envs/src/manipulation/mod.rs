@@ -21,16 +21,29 @@ pub use grasps::{GRASPS, POINTS, Region, Spread, WRISTS, grasps};
 pub use observe::{HAND, HANDLE_TO_HAND, JOINT, LENGTH};
 pub use task::{DOOR, LEVER, Path, SLIDE, Task, TaskError};
 
-use crate::registry::{AnyEnvironment, Entry};
+use crate::registry::{AnyEnvironment, Entry, Make};
 use crate::{
-    Dimension, End, Environment, Refused, Render, Seed, Snapshot, Space, Spec, Step, Sweep, TimeLimit,
+    Dimension, Drawing, End, Environment, Refused, Render, Seed, Snapshot, Space, Spec, Step, Sweep,
+    TimeLimit,
 };
 
 /// The three tasks of the registry.
 pub(crate) const ENTRIES: &[Entry] = &[
-    Entry { name: DOOR.name, about: DOOR.about, make: || any(&DOOR), picture: || None },
-    Entry { name: LEVER.name, about: LEVER.about, make: || any(&LEVER), picture: || None },
-    Entry { name: SLIDE.name, about: SLIDE.about, make: || any(&SLIDE), picture: || None },
+    Entry {
+        name: DOOR.name,
+        about: DOOR.about,
+        make: Make::Bodies { make: || any(&DOOR), picture: || None },
+    },
+    Entry {
+        name: LEVER.name,
+        about: LEVER.about,
+        make: Make::Bodies { make: || any(&LEVER), picture: || None },
+    },
+    Entry {
+        name: SLIDE.name,
+        about: SLIDE.about,
+        make: Make::Bodies { make: || any(&SLIDE), picture: || None },
+    },
 ];
 
 fn any(task: &'static Task) -> AnyEnvironment {
@@ -174,7 +187,7 @@ impl Environment for Manipulation {
         Ok(Step { reward, end: self.over.then_some(End::Terminated) })
     }
 
-    fn observe(&self, out: &mut Vec<f32>) {
+    fn observe(&mut self, out: &mut Vec<f32>) {
         observe::observe(self.task, &self.bench.reading(), self.bench.moving(), out);
     }
 
@@ -210,21 +223,21 @@ impl Sweep for Manipulation {
 }
 
 impl Render for Manipulation {
-    fn scene(&self) -> Scene {
+    fn drawing(&self) -> Drawing {
         const COLOURS: [&[Colour]; 2] = [
             &[colour::ARM, colour::FOOT, colour::FOOT],
             &[colour::JOINT, colour::OBJECT, colour::HANDLE, colour::FURNITURE],
         ];
         let focus = self.task.place() * Vector::from_array(self.task.handle);
         let (x, y) = (f64::from(focus.x), f64::from(focus.y));
-        Scene {
+        Drawing::Bodies(Scene {
             solids: self.bench.solids(|model, link| COLOURS[model][link]).collect(),
             marks: Vec::new(),
             trail: Vec::new(),
             bounds: Rectangle { low: [x - 0.5, y - 0.5], high: [x + 0.5, y + 0.5] },
             focus,
             distance: 0.9,
-        }
+        })
     }
 }
 
@@ -248,7 +261,7 @@ fn spec(task: &Task) -> Spec {
         name: task.name,
         about: task.about,
         observation: observe::space(task),
-        action: Space::Box(ACTIONS.map(|name| Dimension::linear(name, "", -1.0, 1.0)).to_vec()),
+        action: Space::Box(ACTIONS.map(|name| Dimension::linear(name, "", -1.0, 1.0)).into()),
         goal: None,
         place: (HAND..HAND + 3).collect(),
         time_limit: None,

@@ -91,5 +91,5 @@ pub(super) fn space(task: &Task) -> Space {
     all.extend(around([0.0; 3], ["handle_dx", "handle_dy", "handle_dz"]));
     let unit = if matches!(task.path, super::Path::Shift(_)) { "m" } else { "rad" };
     all.push(line("joint", unit, 0.0, task.end));
-    Space::Box(all)
+    Space::Box(all.into())
 }

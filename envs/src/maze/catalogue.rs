@@ -7,7 +7,7 @@
 use inroads_sim::rigid::Model;
 
 use super::{AntMaze, Maze, MazeError, Picture, PointMaze, Starts, Stride, maps};
-use crate::registry::{AnyEnvironment, Entry, Options};
+use crate::registry::{AnyEnvironment, Entry, Make, Options};
 use crate::{Pay, TimeLimit};
 
 /// The thesis' Point-Maze: round three sides of a U, with the goal at (0, 8) (section 3.2).
@@ -202,8 +202,10 @@ macro_rules! list {
         pub(crate) const ENTRIES: &[Entry] = &[$(Entry {
             name: $listed.maze.name,
             about: $listed.maze.about,
-            make: || $listed.build(&Options::default()).expect("the mazes of this crate are well formed"),
-            picture: || $listed.picture(&Options::default()).ok(),
+            make: Make::Bodies {
+                make: || $listed.build(&Options::default()).expect("the mazes of this crate are well formed"),
+                picture: || $listed.picture(&Options::default()).ok(),
+            },
         }),*];
     };
 }

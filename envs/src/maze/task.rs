@@ -1,11 +1,11 @@
 //! A robot on its way through a maze: the decision process itself.
 
-use inroads_sim::{rigid::CellMap, view::Scene};
+use inroads_sim::rigid::CellMap;
 
 use super::{Maze, MazeError, Picture, Robot, Starts, ground::Ground, picture};
 use crate::{
-    Dimension, End, Environment, Goal, GoalError, Goals, Pay, Refused, Render, Rng, Seed, Snapshot, Space,
-    Spec, Step,
+    Dimension, Drawing, End, Environment, Goal, GoalError, Goals, Pay, Refused, Render, Rng, Seed, Snapshot,
+    Space, Spec, Step,
 };
 
 /// Index of `has_key` in the observations of mazes with a lock (author's order: behind x and y).
@@ -203,7 +203,7 @@ impl<R: Robot> Environment for MazeTask<R> {
         Ok(step)
     }
 
-    fn observe(&self, out: &mut Vec<f32>) {
+    fn observe(&mut self, out: &mut Vec<f32>) {
         out.clear();
         self.robot.observe(out);
         if self.ground.key.is_some() {
@@ -280,10 +280,10 @@ impl<R: Robot> Snapshot for MazeTask<R> {
 }
 
 impl<R: Robot> Render for MazeTask<R> {
-    fn scene(&self) -> Scene {
+    fn drawing(&self) -> Drawing {
         let mut scene = picture::scene(&self.ground, self.target(), self.robot.at(), self.episode.held);
         self.robot.draw(&mut scene.solids);
-        scene
+        Drawing::Bodies(scene)
     }
 }
 
@@ -307,8 +307,8 @@ fn spec(maze: &Maze<'_>, ground: &Ground, robot: &impl Robot) -> Spec {
     Spec {
         name: maze.name,
         about: maze.about,
-        observation: Space::Box(observation),
-        action: Space::Box(robot.action()),
+        observation: Space::Box(observation.into()),
+        action: Space::Box(robot.action().into()),
         place: dims.clone(),
         goal: Some(Goal { dims, at, tolerance: maze.tolerance as f32 }),
         time_limit: None,

@@ -3,39 +3,40 @@
 use super::slot::Rows;
 use crate::End;
 
-/// The answers of all copies to a step: row `i` is copy `i`'s.
+/// The answers of all copies to a step: row `i` is copy `i`'s. `N` is what an observation consists of: `f32`, or bytes
+/// of pictures.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Batch {
+pub struct Batch<N = f32> {
     width: usize,
-    observations: Vec<f32>,
+    observations: Vec<N>,
     rewards: Vec<f32>,
     ends: Vec<Option<End>>,
     began: Vec<bool>,
     /// Last observations of episodes that ended in this step; what else stands there is old.
-    lasts: Vec<f32>,
+    lasts: Vec<N>,
     faults: Vec<Option<String>>,
 }
 
-impl Batch {
+impl<N: Copy + Default> Batch<N> {
     pub(super) fn new(count: usize, width: usize) -> Self {
         Self {
             width,
-            observations: vec![0.0; count * width],
+            observations: vec![N::default(); count * width],
             rewards: vec![0.0; count],
             ends: vec![None; count],
             began: vec![false; count],
-            lasts: vec![0.0; count * width],
+            lasts: vec![N::default(); count * width],
             faults: vec![None; count],
         }
     }
 
-    /// Numbers that one copy observes.
+    /// Numbers that one copy observes: of a picture `height × width × channels`.
     pub fn width(&self) -> usize {
         self.width
     }
 
     /// All observations, row-major: `count × width`.
-    pub fn observations(&self) -> &[f32] {
+    pub fn observations(&self) -> &[N] {
         &self.observations
     }
 
@@ -43,7 +44,7 @@ impl Batch {
     ///
     /// # Panics
     /// When there is no such copy, as all here.
-    pub fn observation(&self, copy: usize) -> &[f32] {
+    pub fn observation(&self, copy: usize) -> &[N] {
         &self.observations[copy * self.width..][..self.width]
     }
 
@@ -64,7 +65,7 @@ impl Batch {
     }
 
     /// The last observation of the copy's episode, if it ended in this step.
-    pub fn last(&self, copy: usize) -> Option<&[f32]> {
+    pub fn last(&self, copy: usize) -> Option<&[N]> {
         self.ends[copy].map(|_| &self.lasts[copy * self.width..][..self.width])
     }
 
@@ -74,7 +75,7 @@ impl Batch {
     }
 
     /// The batch in parts of so many copies.
-    pub(super) fn parts(&mut self, copies: usize) -> impl Iterator<Item = Part<'_>> {
+    pub(super) fn parts(&mut self, copies: usize) -> impl Iterator<Item = Part<'_, N>> {
         let width = self.width;
         let numbers = self.observations.chunks_mut(copies * width).zip(self.lasts.chunks_mut(copies * width));
         let answers = self.rewards.chunks_mut(copies).zip(self.ends.chunks_mut(copies));
@@ -94,19 +95,19 @@ impl Batch {
 }
 
 /// The rows of some copies.
-pub(super) struct Part<'a> {
+pub(super) struct Part<'a, N> {
     width: usize,
-    observations: &'a mut [f32],
-    lasts: &'a mut [f32],
+    observations: &'a mut [N],
+    lasts: &'a mut [N],
     rewards: &'a mut [f32],
     ends: &'a mut [Option<End>],
     began: &'a mut [bool],
     faults: &'a mut [Option<String>],
 }
 
-impl<'a> Part<'a> {
+impl<'a, N> Part<'a, N> {
     /// One copy after the other.
-    pub(super) fn rows(self) -> impl Iterator<Item = Rows<'a>> {
+    pub(super) fn rows(self) -> impl Iterator<Item = Rows<'a, N>> {
         let numbers = self.observations.chunks_mut(self.width).zip(self.lasts.chunks_mut(self.width));
         let answers = self.rewards.iter_mut().zip(self.ends);
         let notes = self.began.iter_mut().zip(self.faults);

@@ -1,12 +1,12 @@
 //! One copy, and what it writes into its rows of the batch.
 
-use super::{Admissible, AutoReset};
+use super::{Admissible, AutoReset, Row};
 use crate::{End, Environment, Refused, Seed, Step};
 
 /// A copy's rows of the batch.
-pub(super) struct Rows<'a> {
-    pub(super) observation: &'a mut [f32],
-    pub(super) last: &'a mut [f32],
+pub(super) struct Rows<'a, N> {
+    pub(super) observation: &'a mut [N],
+    pub(super) last: &'a mut [N],
     pub(super) reward: &'a mut f32,
     pub(super) end: &'a mut Option<End>,
     pub(super) began: &'a mut bool,
@@ -22,13 +22,14 @@ pub(super) struct Slot<E> {
     over: bool,
     called: bool,
     refusal: Option<Refused>,
-    /// What the environment writes its observation into.
-    seen: Vec<f32>,
 }
 
-impl<E: Environment<Observation = Vec<f32>, Action: Admissible>> Slot<E> {
+/// The rows that a copy of this domain has.
+type RowsOf<'a, E> = Rows<'a, <<E as Environment>::Observation as Row>::Number>;
+
+impl<E: Environment<Observation: Row, Action: Admissible>> Slot<E> {
     pub(super) fn new(env: E, seed: Seed) -> Self {
-        Self { env, seed, episode: 0, over: true, called: false, refusal: None, seen: Vec::new() }
+        Self { env, seed, episode: 0, over: true, called: false, refusal: None }
     }
 
     pub(super) fn env(&self) -> &E {
@@ -59,17 +60,25 @@ impl<E: Environment<Observation = Vec<f32>, Action: Admissible>> Slot<E> {
         self.refusal.take()
     }
 
-    /// Begins the next episode.
-    pub(super) fn begin(&mut self, rows: Rows<'_>) {
+    /// Begins the next episode. `seen` is scratch memory, as in [`step`](Self::step): all copies of a part share it, so
+    /// that it stays in the processor's cache.
+    pub(super) fn begin(&mut self, rows: RowsOf<'_, E>, seen: &mut E::Observation) {
         self.reset();
-        rows.observation.copy_from_slice(&self.seen);
+        self.env.observe(seen);
+        rows.observation.copy_from_slice(seen.numbers());
         (*rows.reward, *rows.end, *rows.began, *rows.fault) = (0.0, None, true, None);
     }
 
     /// Carries out an admitted action.
-    pub(super) fn step(&mut self, action: &E::Action, auto: AutoReset, rows: Rows<'_>) {
+    pub(super) fn step(
+        &mut self,
+        action: &E::Action,
+        auto: AutoReset,
+        rows: RowsOf<'_, E>,
+        seen: &mut E::Observation,
+    ) {
         if self.over {
-            return self.begin(rows);
+            return self.begin(rows, seen);
         }
         let Step { reward, end } = match self.env.step(action) {
             Ok(step) => step,
@@ -78,24 +87,24 @@ impl<E: Environment<Observation = Vec<f32>, Action: Admissible>> Slot<E> {
                 return;
             }
         };
-        self.env.observe(&mut self.seen);
+        self.env.observe(seen);
         (*rows.reward, *rows.end, *rows.began, *rows.fault) = (reward, end, false, None);
         self.over = end.is_some();
         if self.over {
-            rows.last.copy_from_slice(&self.seen);
+            rows.last.copy_from_slice(seen.numbers());
             *rows.fault = self.env.fault().map(str::to_owned);
             if auto == AutoReset::SameStep {
                 self.reset();
+                self.env.observe(seen);
                 *rows.began = true;
             }
         }
-        rows.observation.copy_from_slice(&self.seen);
+        rows.observation.copy_from_slice(seen.numbers());
     }
 
     fn reset(&mut self) {
         self.env.reset(self.seed.number("episode", self.episode));
         self.episode += 1;
         self.over = false;
-        self.env.observe(&mut self.seen);
     }
 }
