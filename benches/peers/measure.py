@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Measures this project's bodies and environments side by side with MuJoCo and Gymnasium-Robotics.
+"""Measures this project side by side with what others use.
 
-    python3 benches/peers/measure.py [--rounds 9] [--seconds 0.4] [--core 0] [--binary PATH]
+    python3 benches/peers/measure.py [bodies|worlds] [--rounds 9] [--seconds 0.4] [--core 0] [--binary PATH]
+
+Bodies: beside MuJoCo and Gymnasium-Robotics. Worlds: as pictures and as symbols, beside Farama's MiniGrid.
 
 Makes an environment of its own in a temporary directory (needs network once, or --environment to keep one), builds the
 benchmark, and prints a Markdown table. Everything runs on one core: in every round, the peer is measured before
@@ -11,6 +13,7 @@ Nothing here is needed by a test.
 """
 
 import argparse
+import importlib
 import json
 import os
 import platform
@@ -20,23 +23,22 @@ import sys
 import tempfile
 import venv
 
+from timing import speed
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
-PACKAGES = ["mujoco==4.0.0", "gymnasium==1.4.0", "gymnasium-robotics==1.4.2"]
-
-# (ours, peer): names of benches/throughput and of peers.py.
-PAIRS = [
-    ("sim/ant/step, open floor", "MuJoCo mj_step, RK4"),
-    ("sim/ant/step, open floor", "MuJoCo mj_step, Euler"),
-    ("sim/ant/step, open floor", "MuJoCo mj_step, implicitfast"),
-    ("sim/ant/step, u-maze", "MuJoCo mj_step, RK4, U-maze walls"),
-    ("envs/ant-u-maze/step and observe", "Gymnasium-Robotics AntMaze_UMaze-v5"),
-    ("envs/point-maze/step and observe", "Gymnasium-Robotics PointMaze_UMaze-v3"),
-]
+# What the modules beside this one, which are called the same, need.
+PACKAGES = {
+    "bodies": ["mujoco==4.0.0", "gymnasium==1.4.0", "gymnasium-robotics==1.4.2"],
+    "worlds": ["minigrid==3.2.0", "gymnasium==1.4.0"],
+}
+# Set where the environment is made already: what cannot be imported there is an error.
+INSIDE = "INROADS_PEERS_INSIDE"
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", nargs="?", choices=PACKAGES, default="bodies")
     parser.add_argument("--rounds", type=int, default=9)
     parser.add_argument("--seconds", type=float, default=0.4, help="length of one measurement")
     parser.add_argument("--core", type=int, default=0, help="the core that everything runs on")
@@ -45,10 +47,11 @@ def main():
     parser.add_argument("--peers-only", action="store_true", help="measure the other simulators alone")
     options = parser.parse_args()
     try:
-        import gymnasium_robotics  # noqa: F401
+        peers = importlib.import_module(options.what)
     except ImportError:
+        if INSIDE in os.environ:
+            raise
         return again_inside(options)
-    import peers
 
     binary = None if options.peers_only else options.binary or build()
     if hasattr(os, "sched_setaffinity"):
@@ -56,10 +59,10 @@ def main():
     made = {name: make() for name, make in peers.PEERS.items()}
     print(f"{platform.processor() or platform.machine()} ({processor()}), load before: {load()}\n")
     if binary is None:
-        alone(peers, made, options)
+        alone(made, options)
     else:
-        table(peers, made, binary, options)
-    print(f"\nload after: {load()}; rounds: {options.rounds} of {options.seconds} s; {', '.join(PACKAGES)}")
+        table(peers.PAIRS, made, binary, options)
+    print(f"\nload after: {load()}; rounds: {options.rounds} of {options.seconds} s; {', '.join(PACKAGES[options.what])}")
 
 
 def again_inside(options):
@@ -69,8 +72,9 @@ def again_inside(options):
         python = os.path.join(directory, "bin", "python")
         if not os.path.exists(python):
             venv.create(directory, with_pip=True)
-            subprocess.run([python, "-m", "pip", "install", "--quiet", *PACKAGES], check=True)
-        result = subprocess.run([python, os.path.abspath(__file__), *sys.argv[1:]])
+        # Also into an environment that is kept: it may have been made for the other measurement.
+        subprocess.run([python, "-m", "pip", "install", "--quiet", *PACKAGES[options.what]], check=True)
+        result = subprocess.run([python, os.path.abspath(__file__), *sys.argv[1:]], env={**os.environ, INSIDE: "1"})
     sys.exit(result.returncode)
 
 
@@ -93,26 +97,26 @@ def ours(binary, name, seconds):
     return float(done.stdout)
 
 
-def table(peers, made, binary, options):
+def table(pairs, made, binary, options):
     print("| ours | steps/s | peer | steps/s | ours / peer |\n|---|---|---|---|---|")
-    for name, peer in PAIRS:
+    for name, peer in pairs:
         mine, theirs, ratios = [], [], []
         for _ in range(options.rounds):
-            before = peers.speed(made[peer], options.seconds)
+            before = speed(made[peer], options.seconds)
             found = ours(binary, name, options.seconds)
-            after = peers.speed(made[peer], options.seconds)
+            after = speed(made[peer], options.seconds)
             mine.append(found)
             theirs += [before, after]
             ratios.append(2 * found / (before + after))
         print(f"| {name} | {middle(mine)} | {peer} | {middle(theirs)} | {spread(ratios)} |", flush=True)
 
 
-def alone(peers, made, options):
+def alone(made, options):
     print("| peer | steps/s |\n|---|---|")
     found = {name: [] for name in made}
     for _ in range(options.rounds):
         for name, run in made.items():
-            found[name].append(peers.speed(run, options.seconds))
+            found[name].append(speed(run, options.seconds))
     for name, speeds in found.items():
         print(f"| {name} | {middle(speeds)} [{min(speeds):.0f}-{max(speeds):.0f}] |")
 

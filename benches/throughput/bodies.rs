@@ -164,7 +164,7 @@ impl Environment for SameStart {
         self.0.step(action)
     }
 
-    fn observe(&self, out: &mut Vec<f32>) {
+    fn observe(&mut self, out: &mut Vec<f32>) {
         self.0.observe(out);
     }
 }

@@ -11,6 +11,7 @@ mod learners;
 mod measure;
 mod processor;
 mod workload;
+mod worlds;
 
 use std::{
     collections::BTreeMap,
@@ -77,6 +78,7 @@ fn main() -> ExitCode {
 /// Whether nothing has become slower.
 fn run(options: &Options) -> Result<bool, String> {
     let mut workloads = bodies::bodies();
+    workloads.extend(worlds::worlds());
     workloads.extend(learners::ddpg());
     if let Some(name) = &options.only {
         let names = workloads.iter().map(|w| w.name.clone()).collect::<Vec<_>>().join("\n  ");
@@ -131,6 +133,7 @@ fn ratios(all: &[Measured]) {
     let alone = of(&format!("{}{}", learners::UPDATE, learners::ALONE));
     let (one, two) = (of(bodies::ONE_THREAD), of(bodies::TWO_THREADS));
     println!("two threads step the ants {:.2} times as fast as one", one / two);
+    worlds::in_copies(all);
     println!("a DDPG update takes {:.2} times its matrix products alone", of(learners::UPDATE) / alone);
 }
 

@@ -1,16 +1,17 @@
-"""The other simulators, as functions that take so many steps and return the seconds these took.
+"""MuJoCo and Gymnasium-Robotics, as functions that take so many steps and return the seconds these took.
 
 Run by measure.py inside the environment that it makes; nothing here is needed by a test.
 """
 
 import os
-import time
 import xml.etree.ElementTree as xml
 
 import gymnasium
 import gymnasium_robotics
 import mujoco
 import numpy
+
+from timing import clock
 
 # Drawn once: drawing is not what is measured.
 ACTIONS = 4096
@@ -94,20 +95,12 @@ PEERS = {
     "Gymnasium-Robotics PointMaze_UMaze-v3": lambda: environment("PointMaze_UMaze-v3"),
 }
 
-
-def clock():
-    """Processor time: what others run in the meantime does not count."""
-    return time.thread_time()
-
-
-def speed(run, seconds):
-    """Steps a second, over about so many seconds."""
-    steps = 50
-    taken = run(steps)
-    done, elapsed = 0, 0.0
-    while elapsed < seconds:
-        # Batches of about 50 ms, so that the clock is read rarely.
-        steps = max(1, min(5000, int(0.05 * steps / max(taken, 1e-9))))
-        taken = run(steps)
-        done, elapsed = done + steps, elapsed + taken
-    return done / elapsed
+# (ours, peer): names of benches/throughput and of PEERS.
+PAIRS = [
+    ("sim/ant/step, open floor", "MuJoCo mj_step, RK4"),
+    ("sim/ant/step, open floor", "MuJoCo mj_step, Euler"),
+    ("sim/ant/step, open floor", "MuJoCo mj_step, implicitfast"),
+    ("sim/ant/step, u-maze", "MuJoCo mj_step, RK4, U-maze walls"),
+    ("envs/ant-u-maze/step and observe", "Gymnasium-Robotics AntMaze_UMaze-v5"),
+    ("envs/point-maze/step and observe", "Gymnasium-Robotics PointMaze_UMaze-v3"),
+]

@@ -1,0 +1,21 @@
+"""How long something takes. `run(steps)` does so many steps and returns the seconds these took."""
+
+import time
+
+
+def clock():
+    """Processor time: what others run in the meantime does not count."""
+    return time.thread_time()
+
+
+def speed(run, seconds):
+    """Steps a second, over about so many seconds."""
+    steps = 50
+    taken = run(steps)
+    done, elapsed = 0, 0.0
+    while elapsed < seconds:
+        # Batches of about 50 ms, so that the clock is read rarely.
+        steps = max(1, min(5000, int(0.05 * steps / max(taken, 1e-9))))
+        taken = run(steps)
+        done, elapsed = done + steps, elapsed + taken
+    return done / elapsed
