@@ -106,3 +106,18 @@ fn worlds_are_drawn_so_wide_as_is_asked_and_seen_as_is_asked() {
     let text = fail(&mut inroads(&["play", "sokoban", "--layout", "fixed"]));
     assert!(text.contains("`fixed`") && text.contains("fixed:SEED"), "{text}");
 }
+
+#[test]
+fn a_tabular_agent_learns_a_grid_world_and_its_run_is_drawn() {
+    let folder = Folder::new("grid-run");
+    let run = folder.join("run");
+    let mut training = inroads(&["train", "q-learning", "door-key-5x5-thesis", "--see", "symbols"]);
+    succeed(training.args(["--set", "episodes=300", "--out"]).arg(&run));
+    let config = fs::read_to_string(run.join("config.toml")).unwrap();
+    assert!(config.contains("see = \"symbols\""), "{config}");
+    let summary = fs::read_to_string(run.join("summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    assert_eq!(summary["eval_success"], 1.0, "{summary}");
+    succeed(inroads(&["render"]).arg(&run));
+    assert!(run.join("figures/episode-0.gif").exists());
+}

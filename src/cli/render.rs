@@ -34,7 +34,7 @@ pub(super) struct Arguments {
     /// Of an environment: how many steps
     #[arg(long, default_value_t = 100)]
     steps: u32,
-    /// Draw the world itself, from this side (default: a run's map, coloured by skill; an environment from beside)
+    /// Draw the world itself, from this side (default: a run's map, coloured by skill, where there is one; an environment from beside)
     #[arg(long)]
     view: Option<View>,
     /// How wide it is, pixels
@@ -73,14 +73,17 @@ fn of_run(arguments: &Arguments) -> Result<PathBuf, RunError> {
     let watched = run.session.evaluate(protocol, arguments.episode)?.ok_or(RunError::NoSkills)?;
     let default = || run.folder.figures().join(format!("episode-{}.gif", arguments.episode));
     let out = arguments.out.clone().unwrap_or_else(default);
-    match arguments.view {
-        None => draw::movie(&run, &watched, &out)?,
-        Some(view) => {
-            let env = session::environment(&run.config.settings)?;
-            let Watched { start, actions, .. } = watched;
-            write(&film(env, start, &Play::Actions(actions), view, arguments.width)?, &out)?;
-        }
-    }
+    let view = match arguments.view {
+        None => match draw::movie(&run, &watched, &out) {
+            // What has no map is its own picture.
+            Err(RunError::NoMap(_)) => View::Above,
+            drawn => return drawn.map(|()| out),
+        },
+        Some(view) => view,
+    };
+    let env = session::environment(&run.config.settings)?;
+    let Watched { start, actions, .. } = watched;
+    write(&film(env, start, &Play::Actions(actions), view, arguments.width)?, &out)?;
     Ok(out)
 }
 
