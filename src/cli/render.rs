@@ -73,15 +73,14 @@ fn of_run(arguments: &Arguments) -> Result<PathBuf, RunError> {
     let watched = run.session.evaluate(protocol, arguments.episode)?.ok_or(RunError::NoSkills)?;
     let default = || run.folder.figures().join(format!("episode-{}.gif", arguments.episode));
     let out = arguments.out.clone().unwrap_or_else(default);
-    let view = match arguments.view {
-        None => match draw::movie(&run, &watched, &out) {
-            // What has no map is its own picture.
-            Err(RunError::NoMap(_)) => View::Above,
-            drawn => return drawn.map(|()| out),
-        },
-        Some(view) => view,
-    };
-    let env = session::environment(&run.config.settings)?;
+    let settings = &run.config.settings;
+    if arguments.view.is_none() && draw::View::of(settings).is_some() {
+        draw::movie(&run, &watched, &out)?;
+        return Ok(out);
+    }
+    // What has no map is its own picture.
+    let view = arguments.view.unwrap_or(View::Above);
+    let env = session::environment(settings)?;
     let Watched { start, actions, .. } = watched;
     write(&film(env, start, &Play::Actions(actions), view, arguments.width)?, &out)?;
     Ok(out)

@@ -4,7 +4,7 @@ use super::{Annotating, Card, Drawn, Layout, Pictured, ProtoGoals, See, Symbolic
 use crate::certificate::{self, Certificate};
 use crate::registry::{AnyAnnotated, AnyEnvironment};
 use crate::{Domain, Environment, Render, TimeLimit};
-use inroads_sim::raster::FormatError;
+use inroads_sim::raster::{Format, FormatError};
 
 /// How an environment is to be made of a world.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +40,9 @@ impl<W: Drawn> AnyWorld for W {
         let card = self.card();
         Ok(match wanted.see.unwrap_or(card.see) {
             See::Symbols => AnyEnvironment::Choices(limited(symbolic(*self, &card, wanted), &card)),
-            See::Pixels(_) => AnyEnvironment::Frames(limited(pictured(*self, &card, wanted)?, &card)),
+            See::Pixels(format) => {
+                AnyEnvironment::Frames(limited(pictured(*self, &card, wanted, format)?, &card))
+            }
         })
     }
 
@@ -55,8 +57,8 @@ impl<W: Drawn + ProtoGoals> AnnotatedWorld for W {
         let card = self.card();
         Ok(match wanted.see.unwrap_or(card.see) {
             See::Symbols => AnyAnnotated::Vectors(limited(Annotating(symbolic(*self, &card, wanted)), &card)),
-            See::Pixels(_) => {
-                AnyAnnotated::Frames(limited(Annotating(pictured(*self, &card, wanted)?), &card))
+            See::Pixels(format) => {
+                AnyAnnotated::Frames(limited(Annotating(pictured(*self, &card, wanted, format)?), &card))
             }
         })
     }
@@ -70,11 +72,12 @@ fn symbolic<W: Drawn>(world: W, card: &Card, wanted: &Wanted) -> Symbolic<W> {
     Symbolic::new(world, wanted.layout.unwrap_or(card.layout)).named(wanted.name, wanted.about)
 }
 
-fn pictured<W: Drawn>(world: W, card: &Card, wanted: &Wanted) -> Result<Pictured<W>, FormatError> {
-    let format = match wanted.see.unwrap_or(card.see) {
-        See::Symbols => Default::default(),
-        See::Pixels(format) => format,
-    };
+fn pictured<W: Drawn>(
+    world: W,
+    card: &Card,
+    wanted: &Wanted,
+    format: Format,
+) -> Result<Pictured<W>, FormatError> {
     Ok(Pictured::new(world, wanted.layout.unwrap_or(card.layout), format)?.named(wanted.name, wanted.about))
 }
 
@@ -95,7 +98,7 @@ mod tests {
         check::{self, check},
         world::nine::Nine,
     };
-    use inroads_sim::raster::{Filter, Format};
+    use inroads_sim::raster::Filter;
 
     fn wanted(see: Option<See>) -> Wanted {
         Wanted { name: "nine-on-ice", about: "slippery", see, layout: Some(Layout::Fixed(7)) }
