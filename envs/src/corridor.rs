@@ -9,15 +9,28 @@ use inroads_sim::{
 use crate::registry::{AnyEnvironment, Entry, Make};
 use crate::{Dimension, Drawing, End, Environment, Goal, Refused, Render, Space, Spec, Step, TimeLimit};
 
-/// The corridors of the registry.
-pub(crate) const ENTRIES: &[Entry] = &[Entry {
-    name: "corridor-5",
-    about: "five cells in a row, walked from one end to the other; -1 a step",
-    make: Make::Bodies {
-        make: || AnyEnvironment::Choices(Box::new(TimeLimit::new(Corridor::named("corridor-5", 5), 50))),
-        picture: || None,
+/// The corridors of the registry. Episodes are long enough for a random walk to arrive, which takes about `n²` steps.
+pub(crate) const ENTRIES: &[Entry] = &[
+    Entry {
+        name: "corridor-5",
+        about: "five cells in a row, walked from one end to the other; -1 a step",
+        make: Make::Bodies { make: || limited("corridor-5", 5, 50), picture: || None },
     },
-}];
+    Entry {
+        name: "corridor-20",
+        about: "twenty cells in a row",
+        make: Make::Bodies { make: || limited("corridor-20", 20, 400), picture: || None },
+    },
+    Entry {
+        name: "corridor-50",
+        about: "fifty cells in a row",
+        make: Make::Bodies { make: || limited("corridor-50", 50, 2500), picture: || None },
+    },
+];
+
+fn limited(name: &'static str, cells: usize, steps: u32) -> AnyEnvironment {
+    AnyEnvironment::Choices(Box::new(TimeLimit::new(Corridor::named(name, cells), steps)))
+}
 
 /// `n` cells in a row: 0 steps left, 1 steps right, from the first cell to the last; the ends stop one.
 ///

@@ -2,7 +2,7 @@
 
 use crate::{End, Environment, Rng, Step, TimeLimit};
 
-/// What a step pays. Reaching the goal always pays 0 and ends the episode.
+/// What a step pays. Reaching the goal pays 0 and ends the episode, where there is a task.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pay {
     /// −1 for every step that does not reach the goal (the thesis' default).
@@ -12,12 +12,16 @@ pub enum Pay {
         /// Reward lost a metre: 1 in thesis section 6.2, 0.1 in the author's code of chapter 3.
         price: f32,
     },
+    /// 0, wherever it leads: there is no task, and nothing but the time limit ends an episode (the unsupervised phase of
+    /// thesis section 6.2).
+    Nothing,
 }
 
 impl Pay {
     /// What a step that ends this far from the goal pays, and whether it ends the episode.
     pub fn step(self, distance: f32, tolerance: f32) -> Step {
         match self {
+            Self::Nothing => Step { reward: 0.0, end: None },
             _ if distance <= tolerance => Step { reward: 0.0, end: Some(End::Terminated) },
             Self::Sparse => Step { reward: -1.0, end: None },
             Self::Dense { price } => Step { reward: -price * distance, end: None },
@@ -133,6 +137,7 @@ mod tests {
         for pay in [Pay::Sparse, Pay::Dense { price: 0.1 }] {
             assert_eq!((pay.step(0.6, 0.6), pay.step(0.0, 0.6)), (there, there));
         }
+        assert_eq!(Pay::Nothing.step(0.0, 0.6), Step { reward: 0.0, end: None });
         assert_eq!(Pay::Sparse.step(0.61, 0.6), Step { reward: -1.0, end: None });
         assert_eq!(Pay::Dense { price: 0.1 }.step(3.0, 0.6), Step { reward: -0.3, end: None });
     }

@@ -27,6 +27,7 @@ pub mod registry;
 mod render;
 pub mod river;
 mod rng;
+pub mod rooms;
 pub mod sokoban;
 mod spec;
 pub mod taxi;

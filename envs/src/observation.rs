@@ -1,7 +1,9 @@
 //! What is seen, beside vectors of numbers: [`Frame`](crate::Frame)s, and observations with proto-goals.
 
 /// Yes or no to each of a list of questions.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
+)]
 pub struct Bits {
     words: Vec<u64>,
     len: usize,
@@ -39,6 +41,11 @@ impl Bits {
         self.words[bit / 64] >> (bit % 64) & 1 == 1
     }
 
+    /// Whether all that is answered with yes in `others`, to the same questions, is answered with yes here.
+    pub fn contains(&self, others: &Self) -> bool {
+        self.words.iter().zip(&others.words).all(|(word, other)| other & !word == 0)
+    }
+
     /// Answers yes.
     pub fn set(&mut self, bit: usize) {
         assert!(bit < self.len, "there are {} bits, and none of number {bit}", self.len);
@@ -56,7 +63,7 @@ impl Bits {
 }
 
 /// An observation, and which proto-goals hold in the state that it is of (thesis section 8.1).
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Annotated<O> {
     /// What is seen.
     pub seen: O,
@@ -74,6 +81,10 @@ mod tests {
         [0, 63, 64, 129].into_iter().for_each(|bit| bits.set(bit));
         assert_eq!(bits.ones().collect::<Vec<_>>(), [0, 63, 64, 129]);
         assert!(bits.get(63) && !bits.get(62));
+        let mut few = Bits::new(130);
+        [0, 129].into_iter().for_each(|bit| few.set(bit));
+        assert!(bits.contains(&few) && bits.contains(&bits) && !few.contains(&bits));
+        assert!(few.contains(&Bits::new(130)));
         bits.clear(3);
         assert_eq!((bits.len(), bits.ones().count()), (3, 0));
     }

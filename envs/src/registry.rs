@@ -7,10 +7,10 @@ use crate::maze::{
     self, MazeError, Picture, Starts,
     catalogue::{Listed, Walker},
 };
-use crate::world::{AnnotatedWorld, AnyWorld, Layout, See, Wanted};
+use crate::world::{AnnotatedWorld, AnyWorld, Layout, Question, See, Wanted};
 use crate::{Annotated, Domain, Environment, Frame, Refused, Spec, Step};
 use crate::{
-    baba, corridor, grid, manipulation, montezuma, pinball, probes, reacher, river, sokoban, taxi,
+    baba, corridor, grid, manipulation, montezuma, pinball, probes, reacher, river, rooms, sokoban, taxi,
     visual_taxi,
 };
 
@@ -106,6 +106,7 @@ pub fn entries() -> impl Iterator<Item = &'static Entry> {
         maze::ENTRIES,
         reacher::ENTRIES,
         corridor::ENTRIES,
+        rooms::ENTRIES,
         manipulation::ENTRIES,
         grid::ENTRIES,
         sokoban::ENTRIES,
@@ -254,6 +255,14 @@ pub fn make_annotated(name: &str, options: &Options<'_>) -> Result<AnyAnnotated,
 /// # Errors
 /// [`MakeError::Unknown`] and [`MakeError::NoProtoGoals`].
 pub fn proto_goals(name: &str) -> Result<Vec<String>, MakeError> {
+    Ok(questions(name)?.into_iter().map(|question| question.text).collect())
+}
+
+/// The same with the cells that they are about.
+///
+/// # Errors
+/// As [`proto_goals`].
+pub fn questions(name: &str) -> Result<Vec<Question>, MakeError> {
     let entry = named(name)?;
     match entry.make {
         Make::Annotated(world) => Ok(world().questions()),

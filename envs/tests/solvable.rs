@@ -3,7 +3,7 @@
 use std::collections::{HashMap, VecDeque};
 
 use inroads_envs::{
-    Environment,
+    Environment, Pay,
     maze::{
         PointMaze,
         catalogue::{ALL, Listed, Walker},
@@ -69,7 +69,9 @@ fn walk(listed: &Listed, seed: u64) -> Option<u32> {
 
 #[test]
 fn a_walker_that_knows_the_map_solves_every_point_maze_in_half_its_limit() {
-    for listed in ALL.iter().filter(|listed| listed.walker != Walker::Ant) {
+    // Where nothing is paid nothing is solved.
+    let point = |listed: &&Listed| listed.walker != Walker::Ant && listed.maze.pay != Pay::Nothing;
+    for listed in ALL.iter().filter(point) {
         let steps: Vec<_> = (0..10).map(|seed| walk(listed, seed)).collect();
         let limit = listed.maze.limit / 2;
         assert!(

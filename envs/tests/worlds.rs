@@ -6,7 +6,7 @@ use inroads_envs::{
     TimeLimit,
     check::{self, check},
     registry::{self, AnyAnnotated, AnyEnvironment, MakeError, Options},
-    world::{Annotating, Layout, Pictured, See, Symbolic, World},
+    world::{Annotating, Layout, Pictured, Question, See, Symbolic, World},
 };
 use inroads_sim::raster::{Filter, Format};
 use rand::RngExt;
@@ -231,6 +231,26 @@ where
     let questions = registry::proto_goals(name).expect("it has some");
     assert_eq!(seen(env).bits.len(), questions.len(), "{name}: {questions:?}");
     assert!(!questions.is_empty(), "{name}");
+}
+
+#[test]
+fn questions_about_cells_name_their_column_and_row() {
+    let of = |name| registry::questions(name).expect("it has some");
+    let [taxi, visual, distractor, timer, baba] =
+        ["sparse-taxi", "visual-taxi-5x5", "distractor-grid", "timer-grid", "baba-u-maze"].map(of);
+    let asks = |text: &str, cell| Question { text: text.to_owned(), cell };
+    assert_eq!(taxi[7], asks("taxi at 1,2", Some([2, 1])));
+    assert_eq!(taxi[29], asks("passenger in taxi", None));
+    assert_eq!(distractor[16 + 6], asks("green (2, 1)", Some([2, 1])));
+    assert_eq!((&timer[0], timer[115].cell), (&asks("player at (0, 0)", Some([0, 0])), None));
+    for Question { text, cell } in visual {
+        let ends = cell.map_or_else(|| text.clone(), |[column, row]| format!(" at {row},{column}"));
+        assert!(text.ends_with(&ends) && cell.is_some() == text.contains(','), "{text}");
+    }
+    for Question { text, cell } in baba {
+        let [column, row] = cell.expect("all are about cells");
+        assert!(text.ends_with(&format!(" at {column},{row}")), "{text}");
+    }
 }
 
 #[test]

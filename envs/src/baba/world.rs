@@ -207,4 +207,9 @@ impl ProtoGoals for Baba {
             }
         }
     }
+
+    fn cell(&self, bit: usize) -> Option<[usize; 2]> {
+        let [cell, width] = [bit % self.level.cells(), self.level.size[0]];
+        Some([cell % width, cell / width])
+    }
 }

@@ -10,6 +10,7 @@
 mod board;
 mod cell;
 mod error;
+mod factored;
 mod layout;
 mod painter;
 mod pose;
@@ -21,6 +22,7 @@ mod world;
 pub use board::Board;
 pub use cell::{Cell, Colour, Door, Inside};
 pub use error::GridError;
+pub use factored::FactoredDoorKey;
 pub use layout::Maker;
 pub use painter::GridPainter;
 pub use pose::{Direction, Pose};
@@ -30,7 +32,7 @@ pub use view::View;
 pub use world::{GridWorld, Pay};
 
 use crate::registry::{Entry, Make};
-use crate::world::{AnyWorld, Layout, See};
+use crate::world::{AnyWorld, Distracted, Layout, See};
 use inroads_sim::raster::Format;
 
 /// A world of the list below.
@@ -42,6 +44,14 @@ fn listed(maker: Maker) -> GridWorld {
 fn thesis(maker: Maker, limit: u32) -> Box<dyn AnyWorld> {
     Box::new(listed(maker).thesis().limited(limit).expect("the limits of the list are above 0"))
 }
+
+/// Door-key as factors.
+fn factored(size: u32) -> FactoredDoorKey {
+    FactoredDoorKey::new(size).expect("the sizes of the list are possible")
+}
+
+/// Values that the distractor of a distracted world takes on. Few: what learns by tables learns everything so many times.
+const DISTRACTIONS: u8 = 4;
 
 /// Steps that the author gives door-key (thesis section 7.3.1).
 const DOOR_KEY: u32 = 200;
@@ -117,5 +127,21 @@ pub(crate) const ENTRIES: &[Entry] = &[
         "key-corridor-s3r3-thesis",
         "as in thesis chapters 7 and 9: success pays 1, one layout, 84 by 84",
         || thesis(Maker::KeyCorridor { room: 3, rows: 3 }, KEY_CORRIDOR),
+    ),
+    entry("door-key-5x5-factored", "as in thesis chapter 7 but smaller, seen as nine numbers", || {
+        Box::new(factored(5))
+    }),
+    entry("door-key-6x6-factored", "as in thesis chapter 7 but smaller, seen as nine numbers", || {
+        Box::new(factored(6))
+    }),
+    entry(
+        "door-key-5x5-factored-distracted",
+        "door-key-5x5-factored and a number that changes at random in every step",
+        || Box::new(Distracted::new(factored(5), DISTRACTIONS)),
+    ),
+    entry(
+        "door-key-6x6-factored-distracted",
+        "door-key-6x6-factored and a number that changes at random in every step",
+        || Box::new(Distracted::new(factored(6), DISTRACTIONS)),
     ),
 ];

@@ -2,7 +2,8 @@
 //!
 //! Names are `<robot>-<maze>`, then what differs from the plain domain: `-small-steps` (D4RL's point, 0.2 m a
 //! step), `-timed` (the observation ends with the elapsed time), `-dense` (paid by the distance). The point's
-//! U-maze is the thesis' Point-Maze and is called `point-maze`.
+//! U-maze is the thesis' Point-Maze and is called `point-maze`; `point-umaze` and `point-arena` have no task, for the
+//! unsupervised phase of chapter 6.
 
 use inroads_sim::rigid::Model;
 
@@ -23,6 +24,24 @@ pub const U_MAZE: Maze<'static> = Maze {
     locked: false,
     timed: false,
     limit: 1000,
+};
+
+/// The U-maze without a task, where a graph of skills is found before any goal is known (thesis section 6.2). With a
+/// task, and anywhere to start and to go, the same floor is `point-maze-small-steps`.
+pub const FREE_U_MAZE: Maze<'static> = Maze {
+    name: "point-umaze",
+    about: "a point robot with D4RL's small steps in a U-maze without a task",
+    pay: Pay::Nothing,
+    ..U_MAZE
+};
+
+/// The open arena without a task; with one it is `point-reacher-small-steps`.
+pub const FREE_ARENA: Maze<'static> = Maze {
+    name: "point-arena",
+    about: "a point robot with D4RL's small steps in an open arena without a task",
+    starts: Starts::Map,
+    pay: Pay::Nothing,
+    ..REACHER
 };
 
 /// A short straight corridor, of ours, where learners can be tested in seconds.
@@ -227,6 +246,8 @@ list! {
     small_steps!("point-four-rooms", FOUR_ROOMS),
     small_steps!("point-lock-and-key", LOCK_AND_KEY),
     small_steps!("point-reacher", REACHER),
+    Listed { maze: FREE_U_MAZE, walker: Walker::Point(Stride::Small) },
+    Listed { maze: FREE_ARENA, walker: Walker::Point(Stride::Small) },
     ant(ANT_REACHER),
     ant(ANT_U_MAZE),
     ant(ANT_MEDIUM_MAZE),

@@ -22,6 +22,7 @@ pub mod maps;
 mod picture;
 mod point;
 mod robot;
+mod steering;
 mod task;
 
 pub use body::{AntMaze, Body};
@@ -31,6 +32,7 @@ pub use inroads_sim::rigid::Rectangle;
 pub use picture::{Picture, walls};
 pub use point::{Point, PointMaze, Stride};
 pub use robot::{Heading, Robot};
+pub use steering::Steering;
 pub use task::{MazeState, MazeTask};
 
 pub(crate) use catalogue::ENTRIES;

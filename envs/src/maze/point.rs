@@ -32,6 +32,14 @@ impl Stride {
             Self::Small => 0.2,
         }
     }
+
+    /// The unit of a forward action.
+    pub(super) fn unit(self) -> &'static str {
+        match self {
+            Self::Rllab => "m",
+            Self::Small => "m/5",
+        }
+    }
 }
 
 /// rllab's point robot. It observes x, y, θ (not wrapped), vx, vy, ω; its actions are two numbers in [-1, 1]:
@@ -87,11 +95,10 @@ impl Robot for Point {
     }
 
     fn action(&self) -> Vec<Dimension> {
-        let unit = match self.stride {
-            Stride::Rllab => "m",
-            Stride::Small => "m/5",
-        };
-        vec![Dimension::linear("forward", unit, -1.0, 1.0), Dimension::linear("turn", "rad/4", -1.0, 1.0)]
+        vec![
+            Dimension::linear("forward", self.stride.unit(), -1.0, 1.0),
+            Dimension::linear("turn", "rad/4", -1.0, 1.0),
+        ]
     }
 
     /// The ball's radius: what sticks out of it is pushed back when it meets a wall.

@@ -24,6 +24,8 @@ const TRIES: u32 = 100;
 /// lock: without the key one is at least 1 away from it.
 pub struct MazeTask<R> {
     spec: Spec,
+    /// What is pursued; the spec has it too where that is a task.
+    goal: Goal,
     ground: Ground,
     pay: Pay,
     timed: bool,
@@ -70,9 +72,10 @@ impl<R: Robot> MazeTask<R> {
     ) -> Result<Self, MazeError> {
         let ground = Ground::new(maze)?;
         let robot = robot(&ground.map)?;
-        let spec = spec(maze, &ground, &robot);
+        let goal = goal(maze, &ground);
+        let spec = spec(maze, &ground, &robot, &goal);
         let (pay, timed) = (maze.pay, maze.timed);
-        let mut task = Self { spec, ground, pay, timed, robot, episode: Episode::BEGUN };
+        let mut task = Self { spec, goal, ground, pay, timed, robot, episode: Episode::BEGUN };
         task.set_starts(maze.starts)?;
         Ok(task)
     }
@@ -127,15 +130,17 @@ impl<R: Robot> MazeTask<R> {
         Ok(())
     }
 
-    /// The goal as the spec has it.
-    fn task(&self) -> &Goal {
-        self.spec.goal.as_ref().expect("every maze is built with a goal")
-    }
-
     /// Where the goal is.
     fn target(&self) -> [f32; 2] {
-        let at = &self.task().at;
-        [at[0], at[1]]
+        [self.goal.at[0], self.goal.at[1]]
+    }
+
+    /// Moves the goal.
+    fn aim(&mut self, at: &[f32]) {
+        self.goal.at.copy_from_slice(at);
+        if let Some(task) = &mut self.spec.goal {
+            task.at.copy_from_slice(at);
+        }
     }
 
     /// x, y, has_key: as many of them are achieved as the goal has dimensions.
@@ -146,8 +151,7 @@ impl<R: Robot> MazeTask<R> {
 
     /// What a step that ends here pays.
     fn paid(&self) -> Step {
-        let goal = self.task();
-        self.reward(&self.here()[..goal.dims.len()], &goal.at)
+        self.reward(&self.here()[..self.goal.dims.len()], &self.goal.at)
     }
 
     /// Takes the key when it is within reach.
@@ -221,7 +225,7 @@ impl<R: Robot> Environment for MazeTask<R> {
 
 impl<R: Robot> Goals for MazeTask<R> {
     fn achieved(&self, observation: &Vec<f32>, out: &mut Vec<f32>) {
-        self.task().achieved(observation, out);
+        self.goal.achieved(observation, out);
     }
 
     fn distance(&self, achieved: &[f32], goal: &[f32]) -> f32 {
@@ -233,11 +237,11 @@ impl<R: Robot> Goals for MazeTask<R> {
     }
 
     fn goal(&self) -> &[f32] {
-        &self.task().at
+        &self.goal.at
     }
 
     fn set_goal(&mut self, goal: &[f32]) -> Result<(), GoalError> {
-        let (expected, found) = (self.task().dims.len(), goal.len());
+        let (expected, found) = (self.goal.dims.len(), goal.len());
         if expected != found {
             return Err(GoalError::Width { expected, found });
         }
@@ -251,15 +255,13 @@ impl<R: Robot> Goals for MazeTask<R> {
         if self.ground.map.is_wall(at.map(f64::from)) {
             return Err(GoalError::Wall { at });
         }
-        if let Some(task) = &mut self.spec.goal {
-            task.at.copy_from_slice(goal);
-        }
+        self.aim(goal);
         Ok(())
     }
 
     fn sample_goal(&self, rng: &mut Rng) -> Vec<f32> {
         let [x, y] = self.ground.free_point(rng).map(|x| x as f32);
-        [x, y, 1.0][..self.task().dims.len()].to_vec()
+        [x, y, 1.0][..self.goal.dims.len()].to_vec()
     }
 }
 
@@ -267,15 +269,13 @@ impl<R: Robot> Snapshot for MazeTask<R> {
     type State = MazeState<R::State>;
 
     fn save(&self) -> Self::State {
-        MazeState { robot: self.robot.save(), episode: self.episode.clone(), goal: self.task().at.clone() }
+        MazeState { robot: self.robot.save(), episode: self.episode.clone(), goal: self.goal.at.clone() }
     }
 
     fn load(&mut self, state: &Self::State) {
         self.robot.load(&state.robot);
         self.episode.clone_from(&state.episode);
-        if let Some(task) = &mut self.spec.goal {
-            task.at.clone_from(&state.goal);
-        }
+        self.aim(&state.goal);
     }
 }
 
@@ -292,14 +292,20 @@ fn distance(a: &[f32], b: &[f32]) -> f32 {
     a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f32>().sqrt()
 }
 
-fn spec(maze: &Maze<'_>, ground: &Ground, robot: &impl Robot) -> Spec {
-    let mut observation = robot.observation(ground.map.bounds());
+fn goal(maze: &Maze<'_>, ground: &Ground) -> Goal {
     let [x, y] = ground.goal.map(|x| x as f32);
     let (mut dims, mut at) = (vec![0, 1], vec![x, y]);
     if maze.locked {
-        observation.insert(HAS_KEY, Dimension::linear("has_key", "", 0.0, 1.0));
         dims.push(HAS_KEY);
         at.push(1.0);
+    }
+    Goal { dims, at, tolerance: maze.tolerance as f32 }
+}
+
+fn spec(maze: &Maze<'_>, ground: &Ground, robot: &impl Robot, goal: &Goal) -> Spec {
+    let mut observation = robot.observation(ground.map.bounds());
+    if maze.locked {
+        observation.insert(HAS_KEY, Dimension::linear("has_key", "", 0.0, 1.0));
     }
     if maze.timed {
         observation.push(Dimension::linear("time", "", 0.0, TICK * maze.limit as f32));
@@ -309,8 +315,8 @@ fn spec(maze: &Maze<'_>, ground: &Ground, robot: &impl Robot) -> Spec {
         about: maze.about,
         observation: Space::Box(observation.into()),
         action: Space::Box(robot.action().into()),
-        place: dims.clone(),
-        goal: Some(Goal { dims, at, tolerance: maze.tolerance as f32 }),
+        place: goal.dims.clone(),
+        goal: (maze.pay != Pay::Nothing).then(|| goal.clone()),
         time_limit: None,
         success_reward: 0.0,
     }

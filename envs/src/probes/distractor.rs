@@ -113,6 +113,10 @@ impl ProtoGoals for DistractorGrid {
         out.set(self.walker.cell());
         self.lamps.ones().for_each(|lamp| out.set(cells + lamp));
     }
+
+    fn cell(&self, bit: usize) -> Option<[usize; 2]> {
+        Some(place(self.walker.side, bit % self.walker.cells()).map(|at| at as usize))
+    }
 }
 
 impl Probe for DistractorGrid {

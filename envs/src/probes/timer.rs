@@ -89,6 +89,10 @@ impl ProtoGoals for TimerGrid {
             out.set(self.walker.cells() + self.timer as usize - 1);
         }
     }
+
+    fn cell(&self, bit: usize) -> Option<[usize; 2]> {
+        (bit < self.walker.cells()).then(|| place(self.walker.side, bit).map(|at| at as usize))
+    }
 }
 
 impl Probe for TimerGrid {

@@ -5,7 +5,7 @@ use rand::RngExt;
 
 use crate::registry::{Entry, Make};
 use crate::visual_taxi::{Depot, Ink, Rider, Sizes, TaxiPainter, Town};
-use crate::world::{Card, Draw, Drawn, Fact, Layout, Painter, See, World};
+use crate::world::{Card, Distracted, Draw, Drawn, Fact, Layout, Painter, See, World};
 use crate::{Bits, Dimension, End, ProtoGoals, Snapshot, Step};
 
 /// What is paid, and what ends an episode.
@@ -45,6 +45,11 @@ pub(crate) const ENTRIES: &[Entry] = &[
         name: "sparse-taxi-to-destination",
         about: "sparse-taxi by the other reading: a drop-off at a wrong depot does not end the episode",
         make: Make::Annotated(|| Box::new(Taxi::new(Rules::SPARSE_TO_DESTINATION))),
+    },
+    Entry {
+        name: "sparse-taxi-distracted",
+        about: "sparse-taxi-to-destination and a number that changes at random in every step",
+        make: Make::World(|| Box::new(Distracted::new(Taxi::new(Rules::SPARSE_TO_DESTINATION), 4))),
     },
 ];
 
@@ -255,6 +260,10 @@ impl ProtoGoals for Taxi {
         out.set(usize::from(row * 5 + column));
         out.set(25 + usize::from(passenger));
         out.set(30 + usize::from(destination));
+    }
+
+    fn cell(&self, bit: usize) -> Option<[usize; 2]> {
+        (bit < 25).then_some([bit % 5, bit / 5])
     }
 }
 

@@ -34,4 +34,11 @@ impl ProtoGoals for VisualTaxi {
             out.set(first + cells + 1 + usize::from(passenger.goal));
         }
     }
+
+    fn cell(&self, bit: usize) -> Option<[usize; 2]> {
+        let size = usize::from(self.settings.town.size());
+        let (cells, depots) = (size * size, self.settings.town.depots().len());
+        let nth = bit.checked_sub(cells).map_or(bit, |bit| bit % (cells + 1 + depots));
+        (nth < cells).then_some([nth % size, nth / size])
+    }
 }

@@ -1,6 +1,6 @@
 //! Worlds whose type is forgotten: what the registry holds.
 
-use super::{Annotating, Card, Drawn, Layout, Pictured, ProtoGoals, See, Symbolic};
+use super::{Annotating, Card, Drawn, Layout, Pictured, ProtoGoals, Question, See, Symbolic};
 use crate::certificate::{self, Certificate};
 use crate::registry::{AnyAnnotated, AnyEnvironment};
 use crate::{Domain, Environment, Render, TimeLimit};
@@ -32,7 +32,7 @@ pub(crate) trait AnnotatedWorld: AnyWorld {
     fn annotated(self: Box<Self>, wanted: &Wanted) -> Result<AnyAnnotated, FormatError>;
 
     /// What each of its proto-goals asks.
-    fn questions(&self) -> Vec<String>;
+    fn questions(&self) -> Vec<Question>;
 }
 
 impl<W: Drawn> AnyWorld for W {
@@ -63,8 +63,8 @@ impl<W: Drawn + ProtoGoals> AnnotatedWorld for W {
         })
     }
 
-    fn questions(&self) -> Vec<String> {
-        self.proto_goals()
+    fn questions(&self) -> Vec<Question> {
+        (0..).zip(self.proto_goals()).map(|(bit, text)| Question { text, cell: self.cell(bit) }).collect()
     }
 }
 

@@ -63,4 +63,9 @@ impl Draw {
     pub fn play(&self) -> Rng {
         self.play.stream("play", 0)
     }
+
+    /// For what happens by chance beside the world, and takes no part in it.
+    pub fn distraction(&self) -> Rng {
+        self.play.stream("distraction", 0)
+    }
 }

@@ -5,6 +5,7 @@
 //! [`TimeLimit`](crate::TimeLimit) truncates. So there is one place each for refusals, symbols, frames and limits.
 
 mod any;
+mod distracted;
 mod layout;
 #[cfg(test)]
 #[allow(unreachable_pub, dead_code)] // also a part of the integration tests
@@ -17,9 +18,10 @@ mod symbolic;
 mod words;
 
 pub(crate) use any::{AnnotatedWorld, AnyWorld, Wanted};
+pub use distracted::{Beside, Distracted, Undistracted};
 pub use layout::{Draw, Layout};
 pub use pictured::Pictured;
-pub use proto_goals::{Annotating, ProtoGoals};
+pub use proto_goals::{Annotating, ProtoGoals, Question};
 pub use symbolic::Symbolic;
 pub use words::WordError;
 

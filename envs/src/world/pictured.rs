@@ -110,4 +110,8 @@ impl<W: Drawn + ProtoGoals> ProtoGoals for Pictured<W> {
     fn annotate(&self, out: &mut Bits) {
         self.played.world.annotate(out);
     }
+
+    fn cell(&self, bit: usize) -> Option<[usize; 2]> {
+        self.played.world.cell(bit)
+    }
 }

@@ -11,6 +11,21 @@ pub trait ProtoGoals {
 
     /// Which hold now. Clears what `out` held.
     fn annotate(&self, out: &mut Bits);
+
+    /// The column and row, counted from the upper left, of the cell that a bit asks about; none when it asks about
+    /// something else. For pictures only: agents know nothing of what bits ask.
+    fn cell(&self, _bit: usize) -> Option<[usize; 2]> {
+        None
+    }
+}
+
+/// What one bit asks.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Question {
+    /// In a few words.
+    pub text: String,
+    /// The cell that it is about ([`ProtoGoals::cell`]).
+    pub cell: Option<[usize; 2]>,
 }
 
 /// An environment that shows the proto-goals beside what it shows otherwise.
@@ -51,6 +66,10 @@ impl<E: ProtoGoals> ProtoGoals for Annotating<E> {
     fn annotate(&self, out: &mut Bits) {
         self.0.annotate(out);
     }
+
+    fn cell(&self, bit: usize) -> Option<[usize; 2]> {
+        self.0.cell(bit)
+    }
 }
 
 impl<E: ProtoGoals + Environment> ProtoGoals for TimeLimit<E> {
@@ -60,6 +79,10 @@ impl<E: ProtoGoals + Environment> ProtoGoals for TimeLimit<E> {
 
     fn annotate(&self, out: &mut Bits) {
         self.inner().annotate(out);
+    }
+
+    fn cell(&self, bit: usize) -> Option<[usize; 2]> {
+        self.inner().cell(bit)
     }
 }
 

@@ -136,4 +136,8 @@ impl<W: World + ProtoGoals> ProtoGoals for Symbolic<W> {
     fn annotate(&self, out: &mut Bits) {
         self.played.world.annotate(out);
     }
+
+    fn cell(&self, bit: usize) -> Option<[usize; 2]> {
+        self.played.world.cell(bit)
+    }
 }
