@@ -180,7 +180,10 @@ impl Config {
             max_steps: 0,
             evaluation_episodes: 20,
             checkpoint_every: 25,
-            world: World::default(),
+            world: World {
+                layout: assembly::usual_layout(agent, environment).to_owned(),
+                ..World::default()
+            },
         };
         Ok(Self { settings, agent: (entry.defaults)() })
     }

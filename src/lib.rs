@@ -23,3 +23,4 @@ mod keys;
 pub mod prelude;
 pub mod run;
 pub mod session;
+pub mod statistics;

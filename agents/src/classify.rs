@@ -1,4 +1,8 @@
-//! Sets learned from examples: what an initiation set (thesis 3.1.3) needs of a classifier, and two of them.
+//! Sets learned from examples: what an initiation set (thesis 3.1.3) needs of a classifier, and three of them.
+
+mod odds;
+
+pub use odds::{Odds, OddsConfig};
 
 use serde::{Deserialize, Serialize};
 

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::nets::{ActorCritic, Backend, Shape, Step};
 use crate::noise::NoiseConfig;
-use crate::{Bag, Checkpoint, Clip, Context, Corrupt, Encoder, Learner, Memory};
+use crate::{Bag, Checkpoint, Clip, Context, Corrupt, Encode, Encoder, Learner, Memory};
 
 /// Settings of [`Ddpg`]. Defaults are those of the authors' code (`authors.md`, section 1), which are the DDPG
 /// paper's but for τ (0.001 there); the decay of the critic is the exception.
@@ -107,6 +107,7 @@ impl DdpgConfig {
 /// independently; a new option begins as a [`fork`](Self::fork) of the global one (thesis 3.1.2).
 pub struct Ddpg<O> {
     encoder: Arc<dyn Encoder<O> + Send + Sync>,
+    goal_width: usize,
     config: DdpgConfig,
     nets: ActorCritic,
     updates: u64,
@@ -124,8 +125,24 @@ impl<O> Ddpg<O> {
         backend: Backend,
         rng: &mut Rng,
     ) -> Self {
-        let shape = Shape { inputs: encoder.width(), actions, hidden: &config.hidden };
-        Self { nets: ActorCritic::new(shape, backend, rng), encoder, config: config.clone(), updates: 0 }
+        Self::with_goals(encoder, 0, actions, config, backend, rng)
+    }
+
+    /// A learner that reads goals of `goal_width` numbers ([`Encode::width`]) beside the observation.
+    ///
+    /// # Panics
+    /// As [`new`](Self::new).
+    pub fn with_goals(
+        encoder: Arc<dyn Encoder<O> + Send + Sync>,
+        goal_width: usize,
+        actions: usize,
+        config: &DdpgConfig,
+        backend: Backend,
+        rng: &mut Rng,
+    ) -> Self {
+        let shape = Shape { inputs: encoder.width() + goal_width, actions, hidden: &config.hidden };
+        let nets = ActorCritic::new(shape, backend, rng);
+        Self { encoder, goal_width, nets, config: config.clone(), updates: 0 }
     }
 
     /// Minibatch updates made so far.
@@ -139,46 +156,55 @@ impl<O> Ddpg<O> {
         Self { config, updates: 0, ..self.clone() }
     }
 
-    fn encode<'a>(&self, observations: impl ExactSizeIterator<Item = &'a O>) -> Vec<f32>
+    /// Rows of observations, each followed by its goal; zeros for none.
+    fn encode<'a, G: Encode + 'a>(
+        &self,
+        seen: impl ExactSizeIterator<Item = (&'a O, Option<&'a G>)>,
+    ) -> Vec<f32>
     where
         O: 'a,
     {
         let width = self.encoder.width();
-        let mut rows = vec![0.0; width * observations.len()];
-        for (row, observation) in rows.chunks_exact_mut(width).zip(observations) {
+        let mut rows = vec![0.0; (width + self.goal_width) * seen.len()];
+        for (row, (observation, goal)) in rows.chunks_exact_mut(width + self.goal_width).zip(seen) {
+            let (row, rest) = row.split_at_mut(width);
             self.encoder.write(observation, row);
+            if let Some(goal) = goal {
+                goal.write(rest);
+            }
         }
         rows
     }
 }
 
-/// y = r + γ(1−d)·v, row by row.
-fn targets(rewards_and_ends: impl Iterator<Item = (f32, bool)>, next: &[f32], discount: f32) -> Vec<f32> {
-    rewards_and_ends
-        .zip(next)
-        .map(|((reward, terminal), value)| if terminal { reward } else { reward + discount * value })
-        .collect()
+/// y = r + γ(1−d)·v, row by row, from r and γ(1−d).
+fn targets(returns: impl Iterator<Item = (f32, f32)>, next: &[f32]) -> Vec<f32> {
+    returns.zip(next).map(|((reward, discount), value)| reward + discount * value).collect()
 }
 
-impl<O> Learner<O, Vec<f32>> for Ddpg<O> {
-    fn act(&self, memory: &mut Memory, s: &O, ctx: &mut Context) -> Vec<f32> {
-        let mut action = self.nets.act(self.encode(std::iter::once(s)));
+impl<O, G: Encode> Learner<O, Vec<f32>, G> for Ddpg<O> {
+    fn act(&self, memory: &mut Memory, s: &O, goal: Option<&G>, ctx: &mut Context) -> Vec<f32> {
+        let mut action = self.nets.act(self.encode(std::iter::once((s, goal))));
         if ctx.explore {
             self.config.noise.perturb(&mut action, memory, self.updates, &mut ctx.acting);
         }
         action
     }
 
-    fn learn(&mut self, clips: &[Clip<O, Vec<f32>>], _: &mut Context) -> f32 {
+    fn values(&self, _: &Memory, s: &O, goals: &[Option<&G>]) -> Vec<f32> {
+        self.nets.values(self.encode(goals.iter().map(|goal| (s, *goal))))
+    }
+
+    fn learn(&mut self, clips: &[Clip<O, Vec<f32>, G>], _: &mut Context) -> f32 {
         if clips.is_empty() {
             return 0.0;
         }
         let config = &self.config;
-        let before = self.encode(clips.iter().map(|clip| &clip.observations[0]));
-        let after = self.encode(clips.iter().map(|clip| &clip.observations[1]));
+        let before = self.encode(clips.iter().map(|clip| (&clip.observations[0], clip.goal)));
+        let after = self.encode(clips.iter().map(|clip| (clip.last(), clip.goal)));
         let actions = clips.iter().flat_map(|clip| &clip.actions[0]).copied().collect();
         let next = self.nets.target_values(after);
-        let targets = targets(clips.iter().map(|clip| (clip.reward, clip.terminal)), &next, config.discount);
+        let targets = targets(clips.iter().map(|clip| clip.discounted(config.discount)), &next);
 
         let clip = config.gradient_clip;
         let critic = Step { rate: config.critic_rate, decay: config.critic_decay, clip };
@@ -198,6 +224,7 @@ impl<O> Clone for Ddpg<O> {
     fn clone(&self) -> Self {
         Self {
             encoder: Arc::clone(&self.encoder),
+            goal_width: self.goal_width,
             config: self.config.clone(),
             nets: self.nets.clone(),
             updates: self.updates,
@@ -221,6 +248,7 @@ impl<O> Checkpoint for Ddpg<O> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::experience::Rewards;
     use inroads_envs::Seed;
     use rand::RngExt;
 
@@ -256,12 +284,15 @@ mod tests {
         let observations = [vec![0.2, -0.4], vec![0.1, 0.9]];
         let actions: Vec<[Vec<f32>; 1]> =
             (0..64).map(|_| [vec![ctx.learning.random_range(-1.0..1.0)]]).collect();
+        let rewards: Vec<_> = actions.iter().map(|action| [-(action[0][0] - 0.3).powi(2)]).collect();
         let clips: Vec<_> = actions
             .iter()
-            .map(|action| Clip {
+            .zip(&rewards)
+            .map(|(action, reward)| Clip {
                 observations: &observations,
                 actions: action,
-                reward: -(action[0][0] - 0.3).powi(2),
+                rewards: Rewards::Given(reward),
+                goal: None::<&()>,
                 terminal: true,
             })
             .collect();
@@ -269,15 +300,57 @@ mod tests {
     }
 
     fn greedy(learner: &Ddpg<Vec<f32>>) -> f32 {
-        learner.act(&mut Memory::new(), &vec![0.2, -0.4], &mut Context::evaluation(Seed(0), 0))[0]
+        let mut ctx = Context::evaluation(Seed(0), 0);
+        learner.act(&mut Memory::new(), &vec![0.2, -0.4], None::<&()>, &mut ctx)[0]
     }
 
     #[test]
     fn only_a_termination_cuts_the_target() {
         // The third is a truncation, which a clip does not call terminal.
-        let clips = [(-1.0, false), (-1.0, true), (-1.0, false)];
-        let y = targets(clips.into_iter(), &[1.0, 1.0, 1.0], 0.99);
+        let observations = [vec![], vec![]];
+        let returns = [false, true, false].map(|terminal| {
+            let rewards = Rewards::Given(&[-1.0]);
+            let clip =
+                Clip { observations: &observations, actions: &[()], rewards, goal: None::<&()>, terminal };
+            let _: &Vec<f32> = clip.last();
+            clip.discounted(0.99)
+        });
+        let y = targets(returns.into_iter(), &[1.0, 1.0, 1.0]);
         assert!((y[0] + 0.01).abs() < 1e-6 && y[1] == -1.0 && y[2] == y[0]);
+    }
+
+    #[test]
+    fn a_goal_is_read_beside_the_observation_and_none_is_zeros() {
+        struct Bit(f32);
+        impl Encode for Bit {
+            fn width(&self) -> usize {
+                1
+            }
+
+            fn write(&self, out: &mut [f32]) {
+                out[0] = self.0;
+            }
+        }
+        let mut rng = Seed(3).stream("weights", 0);
+        let mut learner: Ddpg<Vec<f32>> =
+            Ddpg::with_goals(Arc::new(Row), 1, 1, &small(), Backend::Flex, &mut rng);
+        // The same step is worth 1 to one goal and nothing to the other.
+        let (observations, action, goals) =
+            ([vec![0.2, -0.4], vec![0.2, -0.4]], [vec![0.1]], [Bit(1.0), Bit(-1.0)]);
+        let clip = |goal: usize| Clip {
+            observations: &observations,
+            actions: &action,
+            rewards: Rewards::Given(if goal == 0 { &[1.0] } else { &[0.0] }),
+            goal: Some(&goals[goal]),
+            terminal: true,
+        };
+        let clips: Vec<_> = (0..32).map(|i| clip(i % 2)).collect();
+        (0..600).for_each(|i| _ = learner.learn(&clips, &mut Context::training(Seed(0), i)));
+        let asked = [Some(&goals[0]), Some(&goals[1])];
+        let values = learner.values(&Memory::new(), &observations[0], &asked);
+        assert!((values[0] - 1.0).abs() < 0.2 && values[1].abs() < 0.2, "{values:?}");
+        let none = learner.values(&Memory::new(), &observations[0], &[None, Some(&Bit(0.0))]);
+        assert_eq!(none[0], none[1]);
     }
 
     #[test]
@@ -298,7 +371,8 @@ mod tests {
         let clip = |i: usize| Clip {
             observations: if i.is_multiple_of(2) { &going } else { &ending },
             actions: &actions[i],
-            reward: -1.0,
+            rewards: Rewards::Given(&[-1.0]),
+            goal: None::<&()>,
             terminal: i % 2 == 1,
         };
         let clips: Vec<_> = (0..64).map(clip).collect();
@@ -351,7 +425,7 @@ mod tests {
     #[test]
     fn exploring_adds_noise_and_settings_are_checked() {
         let learner = learner(&small());
-        let act = |ctx: &mut Context| learner.act(&mut Memory::new(), &vec![0.2, -0.4], ctx)[0];
+        let act = |ctx: &mut Context| learner.act(&mut Memory::new(), &vec![0.2, -0.4], None::<&()>, ctx)[0];
         assert!(greedy(&learner).abs() < 0.1, "actions begin near zero");
         assert_ne!(act(&mut Context::training(Seed(0), 0)), greedy(&learner));
 

@@ -1,5 +1,9 @@
 //! From observations to rows of numbers that networks read.
 
+mod one_hot;
+
+pub use one_hot::{OneHot, OneHotError};
+
 use inroads_envs::{Kind, Space};
 
 /// Writes observations as rows: the one bridge from a domain's kind to tensors.
@@ -9,6 +13,25 @@ pub trait Encoder<O> {
 
     /// Writes one row; `out` has [`width`](Self::width) elements.
     fn write(&self, observation: &O, out: &mut [f32]);
+}
+
+/// A goal as numbers that a network reads beside an observation. "No goal", the task itself, is read as zeros
+/// (thesis section 8.4), so whoever reads goals must know their width beforehand.
+pub trait Encode {
+    /// Numbers it writes; the same for all goals of an agent.
+    fn width(&self) -> usize;
+
+    /// Writes them; `out` has [`width`](Self::width) elements.
+    fn write(&self, out: &mut [f32]);
+}
+
+/// Where nothing but the task is ever learned.
+impl Encode for () {
+    fn width(&self) -> usize {
+        0
+    }
+
+    fn write(&self, _: &mut [f32]) {}
 }
 
 /// Vectors scaled to about [−1, 1] by the usual range of each dimension; an angle becomes its sine and cosine,

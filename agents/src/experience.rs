@@ -112,70 +112,184 @@ pub enum Aim {
 
 /// Some steps of an episode as something to learn from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Lesson {
+pub struct Lesson<G = ()> {
     /// The episode's number.
     pub episode: u64,
     /// Its steps.
     pub steps: Range<u32>,
     /// What they teach.
     pub aim: Aim,
+    /// The goal that the learner is to read with them. None for the task, and for a learner that has but one subgoal.
+    pub goal: Option<G>,
     /// Rewards that replace the ones that follow from the aim, one a step (dense rewards).
     pub rewards: Option<Box<[f32]>>,
 }
 
+impl<G> Lesson<G> {
+    /// One step of the task.
+    pub fn task(episode: u64, step: u32) -> Self {
+        Self { episode, steps: step..step + 1, aim: Aim::Task, goal: None, rewards: None }
+    }
+
+    /// The same for a learner that reads no goals.
+    pub fn without_goal(self) -> Lesson {
+        let Self { episode, steps, aim, rewards, .. } = self;
+        Lesson { episode, steps, aim, goal: None, rewards }
+    }
+
+    /// The same for a learner that reads this goal.
+    pub fn with_goal<H>(self, goal: H) -> Lesson<H> {
+        let Self { episode, steps, aim, rewards, .. } = self;
+        Lesson { episode, steps, aim, goal: Some(goal), rewards }
+    }
+}
+
+/// What the steps of a lesson about a subgoal pay.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pay {
+    /// A step that does not attain it.
+    pub step: f32,
+    /// The step that attains it.
+    pub attained: f32,
+}
+
+impl Pay {
+    /// −1 a step, 0 on success (chapter 3; `decisions.md`).
+    pub const COST: Self = Self { step: -1.0, attained: 0.0 };
+    /// 1 on success, 0 before: a value is the discounted probability of success (chapters 4 to 9).
+    pub const ATTAINMENT: Self = Self { step: 0.0, attained: 1.0 };
+}
+
+/// Rewards of a clip, one an action.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rewards<'a> {
+    /// The task's, or dense ones.
+    Given(&'a [f32]),
+    /// Those of a subgoal, which the clip's last action attains or none does.
+    Subgoal(Pay, bool),
+}
+
 /// A step (or a few) to learn from, borrowed from the experience.
 #[derive(Clone, Copy, Debug)]
-pub struct Clip<'a, O, A> {
+pub struct Clip<'a, O, A, G> {
     /// Observations, one more than actions.
     pub observations: &'a [O],
     /// Actions taken.
     pub actions: &'a [A],
-    /// Reward of the clip's first (and, at length one, only) action.
-    pub reward: f32,
+    /// What each of them paid.
+    pub rewards: Rewards<'a>,
+    /// The goal to be read; none for the task.
+    pub goal: Option<&'a G>,
     /// Whether the value of what follows is zero: the task terminated or the subgoal was attained. A
     /// truncation, and an option's time-out, are not this.
     pub terminal: bool,
 }
 
-/// Reward of a step that does not attain the subgoal (`decisions.md`: 0 on success, −1 a step).
-pub const STEP_PENALTY: f32 = -1.0;
-/// Reward of the step that attains the subgoal.
-pub const ATTAINED: f32 = 0.0;
+impl<O, A, G> Clip<'_, O, A, G> {
+    /// What action number `i` paid.
+    pub fn reward(&self, i: usize) -> f32 {
+        match self.rewards {
+            Rewards::Given(rewards) => rewards[i],
+            Rewards::Subgoal(pay, attained) if attained && i + 1 == self.actions.len() => pay.attained,
+            Rewards::Subgoal(pay, _) => pay.step,
+        }
+    }
+
+    /// Σ γᵗ r over the clip, and the discount of the value of its last observation: 0 when it is terminal.
+    pub fn discounted(&self, gamma: f32) -> (f32, f32) {
+        let (mut sum, mut discount) = (0.0, 1.0);
+        for i in 0..self.actions.len() {
+            sum += discount * self.reward(i);
+            discount *= gamma;
+        }
+        (sum, if self.terminal { 0.0 } else { discount })
+    }
+
+    /// The observation after the last action.
+    ///
+    /// # Panics
+    /// When the clip is empty, which none from a replay is.
+    pub fn last(&self) -> &O {
+        self.observations.last().expect("a clip has an observation more than actions")
+    }
+}
 
 /// A ring of lessons, sampled uniformly over their steps.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Replay {
-    lessons: VecDeque<Lesson>,
+pub struct Replay<G = ()> {
+    lessons: VecDeque<Lesson<G>>,
     /// `ends[i]` is the number of steps ever stored up to and with `lessons[i]`.
     ends: VecDeque<u64>,
     /// Steps ever stored before `lessons[0]`.
     dropped: u64,
+    /// The least episode of lessons that came behind one of a newer episode (hindsight about the past); none where all
+    /// came in order.
+    late: Option<u64>,
     capacity: u64,
+    /// What subgoals pay.
+    pay: Pay,
+    /// Steps a clip, fewer at the end of a lesson.
+    span: u32,
+    /// Whether a lesson that ends without its subgoal ends for good.
+    closing: bool,
 }
 
-impl Replay {
-    /// Keeps about `capacity` steps.
+impl<G> Replay<G> {
+    /// Keeps about `capacity` steps, and gives clips of one, whose subgoals cost a step each.
     pub fn new(capacity: usize) -> Self {
-        Self { lessons: VecDeque::new(), ends: VecDeque::new(), dropped: 0, capacity: capacity as u64 }
+        let (lessons, ends) = (VecDeque::new(), VecDeque::new());
+        let (capacity, pay) = (capacity as u64, Pay::COST);
+        Self { lessons, ends, dropped: 0, late: None, capacity, pay, span: 1, closing: false }
+    }
+
+    /// The same with other rewards of subgoals.
+    pub fn paying(self, pay: Pay) -> Self {
+        Self { pay, ..self }
+    }
+
+    /// The same with clips of up to `steps` steps, for n-step returns; at least 1.
+    pub fn spanning(self, steps: u32) -> Self {
+        Self { span: steps.max(1), ..self }
+    }
+
+    /// The same where a lesson that ends without its subgoal ends for good: nothing follows. For probabilities of
+    /// success within a horizon, where γ is 1 (thesis 5.1.1; `decisions.md`); a learner of policies bootstraps there.
+    pub fn closing(self) -> Self {
+        Self { closing: true, ..self }
     }
 
     /// Adds a lesson; the oldest ones fall out when the ring is full.
-    pub fn push(&mut self, lesson: Lesson) {
+    pub fn push(&mut self, lesson: Lesson<G>) {
         if lesson.steps.is_empty() {
             return;
+        }
+        self.append(lesson);
+        while self.len() as u64 > self.capacity && self.lessons.len() > 1 {
+            self.drop_oldest();
+        }
+    }
+
+    fn append(&mut self, lesson: Lesson<G>) {
+        if self.lessons.back().is_some_and(|newer| lesson.episode < newer.episode) {
+            self.late = Some(self.late.map_or(lesson.episode, |late| late.min(lesson.episode)));
         }
         let end = self.total() + u64::from(lesson.steps.end - lesson.steps.start);
         self.lessons.push_back(lesson);
         self.ends.push_back(end);
-        while self.len() as u64 > self.capacity && self.lessons.len() > 1 {
-            self.drop_oldest();
-        }
     }
 
     /// Forgets lessons of episodes that the experience has forgotten.
     pub fn forget_before(&mut self, first: u64) {
         while self.lessons.front().is_some_and(|lesson| lesson.episode < first) {
             self.drop_oldest();
+        }
+        // Lessons that came in order are gone with that. Before any other one to be forgotten, behind what is newer, lies
+        // one that is late and no newer than it.
+        if self.late.is_some_and(|late| late < first) {
+            let lessons = std::mem::take(&mut self.lessons);
+            self.ends.clear();
+            self.late = None;
+            lessons.into_iter().filter(|lesson| lesson.episode >= first).for_each(|kept| self.append(kept));
         }
     }
 
@@ -204,11 +318,11 @@ impl Replay {
     /// When a lesson speaks of an episode that `all` has forgotten: call
     /// [`forget_before`](Self::forget_before) when episodes are.
     pub fn sample<'a, O, A>(
-        &self,
+        &'a self,
         all: &'a Experience<O, A>,
         n: usize,
         rng: &mut Rng,
-        clips: &mut Vec<Clip<'a, O, A>>,
+        clips: &mut Vec<Clip<'a, O, A, G>>,
     ) {
         clips.clear();
         if self.is_empty() {
@@ -219,30 +333,40 @@ impl Replay {
             let index = self.ends.partition_point(|&end| end <= at);
             let lesson = &self.lessons[index];
             let before = if index == 0 { self.dropped } else { self.ends[index - 1] };
-            clips.push(clip(lesson, lesson.steps.start as usize + (at - before) as usize, all));
+            clips.push(self.clip(lesson, lesson.steps.start + (at - before) as u32, all));
         }
     }
-}
 
-/// One step of a lesson, with the reward and the end that its aim gives it.
-fn clip<'a, O, A>(lesson: &Lesson, step: usize, all: &'a Experience<O, A>) -> Clip<'a, O, A> {
-    let episode = all.episode(lesson.episode).expect("lessons are forgotten with their episodes");
-    let last = step + 1 == lesson.steps.end as usize;
-    let terminated = step + 1 == episode.actions.len() && episode.end == Some(End::Terminated);
-    let (reward, terminal) = match lesson.aim {
-        Aim::Task => (episode.rewards[step], terminated),
-        Aim::Subgoal { attained } => {
-            let attained = attained && last;
-            // A task that terminates elsewhere ends the lesson too, and for good: nobody goes on from there.
-            (if attained { ATTAINED } else { STEP_PENALTY }, attained || terminated)
+    /// The clip of a lesson that begins with `step`, with the rewards and the end that its aim gives it.
+    fn clip<'a, O, A>(
+        &self,
+        lesson: &'a Lesson<G>,
+        step: u32,
+        all: &'a Experience<O, A>,
+    ) -> Clip<'a, O, A, G> {
+        let episode = all.episode(lesson.episode).expect("lessons are forgotten with their episodes");
+        let end = lesson.steps.end.min(step + self.span);
+        let last = end == lesson.steps.end;
+        let (from, to) = (step as usize, end as usize);
+        let terminated = to == episode.actions.len() && episode.end == Some(End::Terminated);
+        let attained = last && lesson.aim == Aim::Subgoal { attained: true };
+        let rewards = match (&lesson.rewards, lesson.aim) {
+            (Some(dense), _) => {
+                let start = lesson.steps.start as usize;
+                Rewards::Given(&dense[from - start..to - start])
+            }
+            (None, Aim::Task) => Rewards::Given(&episode.rewards[from..to]),
+            (None, Aim::Subgoal { .. }) => Rewards::Subgoal(self.pay, attained),
+        };
+        Clip {
+            observations: &episode.observations[from..=to],
+            actions: &episode.actions[from..to],
+            rewards,
+            goal: lesson.goal.as_ref(),
+            // A task that terminates elsewhere ends a lesson about a subgoal too, and for good: nobody goes on
+            // from there.
+            terminal: attained || terminated || (self.closing && last),
         }
-    };
-    let reward = lesson.rewards.as_ref().map_or(reward, |r| r[step - lesson.steps.start as usize]);
-    Clip {
-        observations: &episode.observations[step..=step + 1],
-        actions: &episode.actions[step..=step],
-        reward,
-        terminal,
     }
 }
 
@@ -269,14 +393,14 @@ mod tests {
     }
 
     fn task(episode: u64, steps: Range<u32>) -> Lesson {
-        Lesson { episode, steps, aim: Aim::Task, rewards: None }
+        Lesson { episode, steps, aim: Aim::Task, goal: None, rewards: None }
     }
 
     fn all_clips(replay: &Replay, all: &Experience<f32, u8>) -> Vec<(f32, f32, f32, bool)> {
         let mut clips = Vec::new();
         replay.sample(all, 400, &mut Seed(0).stream("test", 0), &mut clips);
         let mut seen: Vec<_> =
-            clips.iter().map(|c| (c.observations[0], c.observations[1], c.reward, c.terminal)).collect();
+            clips.iter().map(|c| (c.observations[0], *c.last(), c.discounted(1.0).0, c.terminal)).collect();
         seen.sort_by(|a, b| a.0.total_cmp(&b.0));
         seen.dedup();
         seen
@@ -301,13 +425,13 @@ mod tests {
     fn an_attained_subgoal_ends_its_lesson_and_a_missed_one_bootstraps() {
         let all = experience(100);
         let mut replay = Replay::new(100);
-        let lesson =
-            |attained, steps| Lesson { episode: 1, steps, aim: Aim::Subgoal { attained }, rewards: None };
+        let lesson = |attained, steps| Lesson { aim: Aim::Subgoal { attained }, ..task(1, steps) };
         replay.push(lesson(true, 0..2));
         replay.push(lesson(false, 2..3));
-        let expected =
-            [(3.0, 4.0, STEP_PENALTY, false), (4.0, 5.0, ATTAINED, true), (5.0, 6.0, STEP_PENALTY, false)];
+        let expected = [(3.0, 4.0, -1.0, false), (4.0, 5.0, 0.0, true), (5.0, 6.0, -1.0, false)];
         assert_eq!(all_clips(&replay, &all), expected);
+        let expected = [(3.0, 4.0, 0.0, false), (4.0, 5.0, 1.0, true), (5.0, 6.0, 0.0, false)];
+        assert_eq!(all_clips(&replay.paying(Pay::ATTAINMENT), &all), expected);
     }
 
     #[test]
@@ -322,6 +446,42 @@ mod tests {
     }
 
     #[test]
+    fn clips_of_several_steps_end_with_their_lesson() {
+        // algorithms.md 14: rewards 0, 0 and a terminal 1 are worth .81, .9 and 1 from their three states.
+        let mut all = Experience::new(100);
+        all.begin(&0.0);
+        for (step, reward) in [0.0, 0.0, 1.0].into_iter().enumerate() {
+            let (before, after) = (step as f32, step as f32 + 1.0);
+            let end = (step == 2).then_some(End::Terminated);
+            all.push(&Transition { before: &before, action: &0u8, reward, after: &after, end });
+        }
+        let returns = |lesson: Lesson, replay: Replay| {
+            let mut replay = replay.spanning(3);
+            replay.push(lesson);
+            let mut clips = Vec::new();
+            replay.sample(&all, 200, &mut Seed(0).stream("test", 0), &mut clips);
+            let mut seen: Vec<_> = clips.iter().map(|c| (c.observations[0], c.discounted(0.9))).collect();
+            seen.sort_by(|a, b| a.0.total_cmp(&b.0));
+            seen.dedup();
+            seen
+        };
+        let near = |found: Vec<(f32, (f32, f32))>, expected: &[(f32, f32)]| {
+            assert_eq!(found.len(), expected.len());
+            for ((_, found), expected) in found.iter().zip(expected) {
+                assert!(
+                    (found.0 - expected.0).abs() < 1e-6 && (found.1 - expected.1).abs() < 1e-6,
+                    "{found:?}"
+                );
+            }
+        };
+        near(returns(task(0, 0..3), Replay::new(10)), &[(0.81, 0.0), (0.9, 0.0), (1.0, 0.0)]);
+        // Cut before its end it bootstraps from where it was cut.
+        near(returns(task(0, 0..2), Replay::new(10)), &[(0.0, 0.81), (0.0, 0.9)]);
+        let attained = Lesson { aim: Aim::Subgoal { attained: true }, ..task(0, 0..2) };
+        near(returns(attained, Replay::new(10).paying(Pay::ATTAINMENT)), &[(0.9, 0.0), (1.0, 0.0)]);
+    }
+
+    #[test]
     fn whole_episodes_are_forgotten_with_their_lessons() {
         let mut all = experience(4);
         all.begin(&0.0);
@@ -332,5 +492,26 @@ mod tests {
         replay.forget_before(all.first());
         assert_eq!(replay.len(), 2);
         assert!(all_clips(&replay, &all).iter().all(|c| c.0 >= 7.0));
+    }
+
+    #[test]
+    fn lessons_about_the_past_are_forgotten_wherever_they_lie() {
+        let mut all = experience(4);
+        let mut replay = Replay::new(100);
+        // The second comes late; the third comes behind it and is late as well.
+        for (episode, steps) in [(2, 0..2), (0, 0..2), (1, 0..3), (2, 1..2)] {
+            replay.push(task(episode, steps));
+        }
+        replay.forget_before(1);
+        assert_eq!(replay.len(), 6, "the lesson of episode 0 had two steps");
+        all.begin(&0.0);
+        assert_eq!(all.first(), 2);
+        replay.forget_before(all.first());
+        assert_eq!(replay.len(), 3);
+        let seen: Vec<_> = all_clips(&replay, &all).iter().map(|c| c.0).collect();
+        assert_eq!(seen, [7.0, 8.0]);
+        replay.push(task(3, 0..1));
+        replay.forget_before(4);
+        assert!(replay.is_empty());
     }
 }

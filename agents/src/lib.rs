@@ -1,28 +1,39 @@
-//! Learners with no notion of options: replay, networks on Burn, DDPG, double DQN, support vector machines.
+//! Learners with no notion of options: replay, networks on Burn, DDPG, double DQN, tables, policy evaluation, novelty,
+//! support vector machines.
 //!
 //! Burn stands in this room only, and is compiled once: rows of numbers in, rows of numbers out.
 
 pub mod checkpoint;
 pub mod classify;
+pub mod curious;
 pub mod ddpg;
 pub mod dqn;
+pub mod draw;
 pub mod encode;
 pub mod episode;
+pub mod evaluate;
 pub mod experience;
 pub mod flat;
+pub mod lspi;
 pub mod nets;
 pub mod noise;
+pub mod novelty;
 mod pace;
+mod running;
 pub mod svm;
 pub mod tabular;
 
 pub use checkpoint::{Bag, Checkpoint, Corrupt};
-pub use encode::Encoder;
+pub use curious::Curious;
+pub use encode::{Encode, Encoder};
 pub use episode::{Summary, episode};
+pub use evaluate::Evaluator;
 pub use experience::{Clip, Experience, Lesson, Replay};
 pub use flat::Flat;
+pub use novelty::Novelty;
 pub use pace::Pace;
-pub use tabular::TabularQ;
+pub use running::Running;
+pub use tabular::{Key, TabularQ};
 
 use inroads_envs::{End, Rng, Seed};
 
@@ -99,13 +110,19 @@ pub trait Agent<O, A>: Actor<O, A> + Checkpoint {
     fn updates(&self) -> Vec<(&'static str, u64)>;
 }
 
-/// Learns a policy from clips of experience.
-pub trait Learner<O, A>: Checkpoint {
-    /// The action at `s`, with exploration noise when `ctx.explore`.
-    fn act(&self, memory: &mut Memory, s: &O, ctx: &mut Context) -> A;
+/// Learns a policy from clips of experience: for the task, and for goals of type `G` if it reads any.
+///
+/// `None` as a goal is the task itself. A learner without goals has `G = ()`.
+pub trait Learner<O, A, G>: Checkpoint {
+    /// The action at `s` on the way to a goal, with exploration noise when `ctx.explore`.
+    fn act(&self, memory: &mut Memory, s: &O, goal: Option<&G>, ctx: &mut Context) -> A;
+
+    /// What `s` is worth to somebody on the way to each of these goals, who acts without noise. With the rewards of
+    /// [`Pay::ATTAINMENT`](experience::Pay::ATTAINMENT) that is the discounted probability of getting there.
+    fn values(&self, memory: &Memory, s: &O, goals: &[Option<&G>]) -> Vec<f32>;
 
     /// One minibatch update on these clips; the loss.
-    fn learn(&mut self, clips: &[Clip<O, A>], ctx: &mut Context) -> f32;
+    fn learn(&mut self, clips: &[Clip<O, A, G>], ctx: &mut Context) -> f32;
 
     /// How many clips `learn` wants.
     fn batch(&self) -> usize;

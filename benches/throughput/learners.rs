@@ -8,6 +8,7 @@ use inroads::{
         Clip, Context, Encoder, Learner, Memory,
         ddpg::{Ddpg, DdpgConfig},
         encode::Scaled,
+        experience::Rewards,
         nets::Backend,
     },
     envs::{Seed, registry},
@@ -40,16 +41,17 @@ pub(crate) fn ddpg() -> Vec<Workload> {
             (Rc::clone(&learner), observations[0].clone(), Memory::new());
         Workload::repeated("agents/ddpg/act", move || {
             let (learner, ctx) = &mut *learner.borrow_mut();
-            black_box(learner.act(&mut memory, &observation, ctx));
+            black_box(learner.act(&mut memory, &observation, None::<&()>, ctx));
         })
     };
     let update = Workload::repeated(UPDATE, move || {
         let (learner, ctx) = &mut *learner.borrow_mut();
-        let clips: Vec<Clip<Vec<f32>, Vec<f32>>> = (0..actions.len())
+        let clips: Vec<Clip<Vec<f32>, Vec<f32>, ()>> = (0..actions.len())
             .map(|i| Clip {
                 observations: &observations[i..=i + 1],
                 actions: &actions[i..=i],
-                reward: -1.0,
+                rewards: Rewards::Given(&[-1.0]),
+                goal: None,
                 terminal: false,
             })
             .collect();

@@ -7,8 +7,10 @@
 mod bodies;
 mod calibration;
 mod compare;
+mod evaluator;
 mod learners;
 mod measure;
+mod planning;
 mod processor;
 mod workload;
 mod worlds;
@@ -80,6 +82,8 @@ fn run(options: &Options) -> Result<bool, String> {
     let mut workloads = bodies::bodies();
     workloads.extend(worlds::worlds());
     workloads.extend(learners::ddpg());
+    workloads.extend(evaluator::evaluator());
+    workloads.extend(planning::planning());
     if let Some(name) = &options.only {
         let names = workloads.iter().map(|w| w.name.clone()).collect::<Vec<_>>().join("\n  ");
         let found = workloads.iter_mut().find(|w| w.name == *name);
@@ -134,6 +138,8 @@ fn ratios(all: &[Measured]) {
     let (one, two) = (of(bodies::ONE_THREAD), of(bodies::TWO_THREADS));
     println!("two threads step the ants {:.2} times as fast as one", one / two);
     worlds::in_copies(all);
+    let events = of(evaluator::PREPARE) + 300.0 * of(evaluator::EVENT);
+    println!("300 proto-goals that occur are judged in {:.2} s", events * 1e-6);
     println!("a DDPG update takes {:.2} times its matrix products alone", of(learners::UPDATE) / alone);
 }
 

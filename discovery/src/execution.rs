@@ -4,7 +4,7 @@
 //! back. A running call is a value, not a call stack: so truncation is caught once, a page can pause between
 //! two steps, and nothing of it is ever saved (checkpoints are taken between episodes).
 
-use inroads_agents::{Actor, Agent, Bag, Checkpoint, Context, Corrupt, Experience, Transition};
+use inroads_agents::{Actor, Agent, Bag, Checkpoint, Context, Corrupt, Experience, Memory, Transition};
 use inroads_envs::End;
 use serde::{Serialize, de::DeserializeOwned};
 use std::ops::Range;
@@ -12,10 +12,12 @@ use std::ops::Range;
 use crate::SkillId;
 
 /// A skill is asked to act for at most `budget` steps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Call {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Call<G> {
     /// Who acts.
     pub skill: SkillId,
+    /// What for, where one policy serves many goals.
+    pub goal: Option<G>,
     /// Steps after which it must hand back; at least 1.
     pub budget: u32,
 }
@@ -33,9 +35,9 @@ pub enum Stop {
 
 /// What a call came to: a range of the experience, so no trajectory is collected on the side.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
+pub struct Outcome<G> {
     /// The call.
-    pub call: Call,
+    pub call: Call<G>,
     /// The episode's number.
     pub episode: u64,
     /// The steps it took.
@@ -57,45 +59,93 @@ pub fn discounted(rewards: &[f32], gamma: f32) -> (f32, f32) {
 /// Deciding and acting borrow the method; only finishing and learning change it. What lasts one episode of one
 /// actor is in the lane, so an evaluation cannot change a method.
 pub trait Discovery<O, A>: Checkpoint {
+    /// What its skills can be called for; `()` where each has but one subgoal.
+    type Goal: Clone;
+
     /// State of one episode of one actor. Never saved.
     type Lane: Default;
 
-    /// Which skill to call at `s`.
-    fn decide(&self, lane: &mut Self::Lane, s: &O, ctx: &mut Context) -> Call;
+    /// Which skill to call at `s`, given all that is remembered.
+    fn decide(
+        &self,
+        lane: &mut Self::Lane,
+        s: &O,
+        all: &Experience<O, A>,
+        ctx: &mut Context,
+    ) -> Call<Self::Goal>;
 
     /// The called skill's action at `s`.
-    fn act(&self, lane: &mut Self::Lane, call: Call, s: &O, ctx: &mut Context) -> A;
+    fn act(&self, lane: &mut Self::Lane, call: &Call<Self::Goal>, s: &O, ctx: &mut Context) -> A;
 
     /// Whether this step reached the called skill's subgoal.
-    fn reached(&self, call: Call, t: &Transition<O, A>) -> bool;
+    fn reached(&self, call: &Call<Self::Goal>, t: &Transition<O, A>) -> bool;
 
-    /// A call is over; its steps are in the experience already.
-    fn finished(&mut self, out: &Outcome, all: &Experience<O, A>, ctx: &mut Context);
+    /// One step of the environment has passed, and is the newest of the experience. Comes before [`finished`]: what a
+    /// method counts, it has counted when it is to judge what a call came to.
+    ///
+    /// [`finished`]: Self::finished
+    fn seen(&mut self, all: &Experience<O, A>, ctx: &mut Context) {
+        let _ = (all, ctx);
+    }
 
-    /// One step of the environment has passed while `call` ran.
-    fn learn(&mut self, call: Call, all: &Experience<O, A>, ctx: &mut Context);
+    /// A call is over; its steps are in the experience already. `lane` is the actor's as it was when it ended.
+    fn finished(
+        &mut self,
+        lane: &mut Self::Lane,
+        out: &Outcome<Self::Goal>,
+        all: &Experience<O, A>,
+        ctx: &mut Context,
+    );
+
+    /// One step of the environment has passed while `call` ran; comes last.
+    fn learn(&mut self, call: &Call<Self::Goal>, all: &Experience<O, A>, ctx: &mut Context);
 
     /// Learning steps made so far, by name of the network.
     fn updates(&self) -> Vec<(&'static str, u64)>;
 }
 
+/// Who acts, and what it remembers from step to step.
+#[derive(Clone, Debug, Default)]
+pub struct Driver {
+    memory: Memory,
+    owner: Option<SkillId>,
+}
+
+impl Driver {
+    /// `skill` acts from now on: whoever acted before takes its memory with it.
+    pub fn hand_to(&mut self, skill: SkillId) {
+        if self.owner != Some(skill) {
+            self.memory.clear();
+            self.owner = Some(skill);
+        }
+    }
+
+    /// The memory of who acts.
+    pub fn memory(&mut self) -> &mut Memory {
+        &mut self.memory
+    }
+}
+
 /// The running call of one actor.
-struct Execution<L> {
+struct Execution<L, G> {
     lane: L,
     /// The call and the steps that it has taken.
-    running: Option<(Call, u32)>,
+    running: Option<(Call<G>, u32)>,
     /// Whoever chose the last action, for pictures.
     last: SkillId,
 }
 
-impl<L> Execution<L> {
+impl<L, G: Clone> Execution<L, G> {
     fn new(lane: L) -> Self {
         Self { lane, running: None, last: SkillId::GLOBAL }
     }
 
     /// The action at `s`, after a decision if no call is running.
-    fn act<O, A, D: Discovery<O, A, Lane = L>>(&mut self, method: &D, s: &O, ctx: &mut Context) -> A {
-        let (call, _) = *self.running.get_or_insert_with(|| (method.decide(&mut self.lane, s, ctx), 0));
+    fn act<O, A, D>(&mut self, method: &D, s: &O, all: &Experience<O, A>, ctx: &mut Context) -> A
+    where
+        D: Discovery<O, A, Lane = L, Goal = G>,
+    {
+        let (call, _) = &*self.running.get_or_insert_with(|| (method.decide(&mut self.lane, s, all, ctx), 0));
         self.last = call.skill;
         method.act(&mut self.lane, call, s, ctx)
     }
@@ -103,21 +153,20 @@ impl<L> Execution<L> {
     /// Counts the step: the call, the steps it has taken, and why it ended with this one, if it did.
     ///
     /// The order matters: reaching the subgoal at the last moment counts as reaching it.
-    fn advance<O, A, D: Discovery<O, A, Lane = L>>(
-        &mut self,
-        method: &D,
-        t: &Transition<O, A>,
-    ) -> (Call, u32, Option<Stop>) {
-        let (call, before) = self.running.expect("act comes before observe");
+    fn advance<O, A, D>(&mut self, method: &D, t: &Transition<O, A>) -> (Call<G>, u32, Option<Stop>)
+    where
+        D: Discovery<O, A, Lane = L, Goal = G>,
+    {
+        let (call, before) = self.running.take().expect("act comes before observe");
         let steps = before + 1;
-        let stop = if method.reached(call, t) {
+        let stop = if method.reached(&call, t) {
             Some(Stop::Reached)
         } else if t.end.is_some() {
             Some(Stop::CutShort)
         } else {
             (steps >= call.budget).then_some(Stop::TimedOut)
         };
-        self.running = stop.is_none().then_some((call, steps));
+        self.running = stop.is_none().then(|| (call.clone(), steps));
         (call, steps, stop)
     }
 }
@@ -126,7 +175,7 @@ impl<L> Execution<L> {
 pub struct Hierarchy<O, A, D: Discovery<O, A>> {
     method: D,
     experience: Experience<O, A>,
-    execution: Execution<D::Lane>,
+    execution: Execution<D::Lane, D::Goal>,
 }
 
 impl<O: Clone, A: Clone, D: Discovery<O, A>> Hierarchy<O, A, D> {
@@ -141,9 +190,15 @@ impl<O: Clone, A: Clone, D: Discovery<O, A>> Hierarchy<O, A, D> {
         &self.method
     }
 
+    /// All that is remembered.
+    pub fn experience(&self) -> &Experience<O, A> {
+        &self.experience
+    }
+
     /// The method watched without learning, from a lane of the caller's.
     pub fn watch(&self, lane: D::Lane) -> Box<dyn Actor<O, A> + '_> {
-        Box::new(Watched { method: &self.method, execution: Execution::new(lane) })
+        let (method, all) = (&self.method, &self.experience);
+        Box::new(Watched { method, all, execution: Execution::new(lane) })
     }
 }
 
@@ -154,19 +209,21 @@ impl<O: Clone, A: Clone, D: Discovery<O, A>> Actor<O, A> for Hierarchy<O, A, D> 
     }
 
     fn act(&mut self, s: &O, ctx: &mut Context) -> A {
-        self.execution.act(&self.method, s, ctx)
+        self.execution.act(&self.method, s, &self.experience, ctx)
     }
 
     fn observe(&mut self, t: &Transition<O, A>, ctx: &mut Context) {
         self.experience.push(t);
+        self.method.seen(&self.experience, ctx);
         let (call, steps, stop) = self.execution.advance(&self.method, t);
         if let Some(stop) = stop {
             let episode = self.experience.latest();
             let until = self.experience.length(episode);
-            let outcome = Outcome { call, episode, steps: until - steps..until, stop, end: t.end };
-            self.method.finished(&outcome, &self.experience, ctx);
+            let outcome =
+                Outcome { call: call.clone(), episode, steps: until - steps..until, stop, end: t.end };
+            self.method.finished(&mut self.execution.lane, &outcome, &self.experience, ctx);
         }
-        self.method.learn(call, &self.experience, ctx);
+        self.method.learn(&call, &self.experience, ctx);
     }
 
     fn source(&self) -> usize {
@@ -208,18 +265,19 @@ where
 }
 
 /// A method that acts and does not learn.
-struct Watched<'a, D, L> {
+struct Watched<'a, O, A, D, L, G> {
     method: &'a D,
-    execution: Execution<L>,
+    all: &'a Experience<O, A>,
+    execution: Execution<L, G>,
 }
 
-impl<O, A, D: Discovery<O, A>> Actor<O, A> for Watched<'_, D, D::Lane> {
+impl<O, A, D: Discovery<O, A>> Actor<O, A> for Watched<'_, O, A, D, D::Lane, D::Goal> {
     fn begin(&mut self, _: &O, _: &mut Context) {
         self.execution.running = None;
     }
 
     fn act(&mut self, s: &O, ctx: &mut Context) -> A {
-        self.execution.act(self.method, s, ctx)
+        self.execution.act(self.method, s, self.all, ctx)
     }
 
     fn observe(&mut self, t: &Transition<O, A>, _: &mut Context) {

@@ -8,18 +8,29 @@
 //! ([`chain::Skill`]). One network shared by all skills or one each is then a choice of family, and "my subgoal
 //! is to enter your initiation set" is a number too.
 
+pub mod abstracting;
 pub mod chain;
 pub mod execution;
+pub mod frontier;
+pub mod goal;
+pub mod graph;
+pub mod hindsight;
 pub mod initiation;
+pub mod naming;
 pub mod over_skills;
 pub mod policy;
+pub mod proto;
 pub mod record;
 
+pub use abstracting::{Abstracting, AbstractingConfig};
 pub use chain::{ChainConfig, Chaining};
 pub use execution::{Call, Discovery, Hierarchy, Outcome, Stop};
-pub use initiation::{Binary, Initiation};
+pub use goal::{Features, Goal, Wanted};
+pub use graph::{DeepGraph, GraphExplorer};
+pub use initiation::{Binary, Dual, Initiation, Ivf, Weighted};
 pub use over_skills::{Choice, PolicyOverSkills};
-pub use policy::{PerSkill, SkillPolicy};
+pub use policy::{PerSkill, Shared, SkillPolicy};
+pub use proto::ProtoGoalAgent;
 pub use record::{SkillRecord, Skilled};
 
 use serde::{Deserialize, Serialize};

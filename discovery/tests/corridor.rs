@@ -14,48 +14,59 @@ use inroads_agents::{
 };
 use inroads_discovery::{
     Binary, ChainConfig, Chaining, Hierarchy, PerSkill, Skilled,
-    chain::Phase,
+    chain::{
+        Phase,
+        metrics::{chain_from, leaves},
+    },
     over_skills::{Epsilon, TabularOverSkills},
 };
-use inroads_envs::{Environment, Seed, TimeLimit, corridor::Corridor};
+use inroads_envs::{
+    Dimension, End, Environment, Goal, Refused, Seed, Space, Spec, Step, TimeLimit, corridor::Corridor,
+};
 
 type Dsc = Hierarchy<
     Vec<f32>,
     usize,
-    Chaining<Vec<f32>, Binary<Vec<f32>, Nearest>, PerSkill<TabularQ>, TabularOverSkills>,
+    Chaining<Vec<f32>, usize, Binary<Vec<f32>, Nearest>, PerSkill<TabularQ>, TabularOverSkills>,
 >;
 
 fn agent(env: &impl Environment) -> Dsc {
     let config = ChainConfig {
+        max_skills: 100,
         gestation: 1,
         segment: 3,
         initiation_episodes: 2,
         initiation_successes: 1,
         timeout: 5,
         pretrain: 50,
+        goal_first: true,
         ..ChainConfig::default()
     };
     let tables = TabularConfig { discount: 0.9, ..TabularConfig::default() };
     let policy = PerSkill::new(
         TabularQ::new(2, &tables),
         TabularQ::clone,
-        1000,
+        10_000,
         Pace { updates_per_step: 1.0, warm_up: 1 },
     );
     let initiation = Binary::new(Arc::new(Select::new(&env.spec().place)), Nearest::new(0.25), 100);
     let epsilon = Epsilon { start: 0.5, end: 0.1, decisions: 200 };
     let over = TabularOverSkills::new(0.5, epsilon);
-    Hierarchy::new(Chaining::new(&config, env.spec(), initiation, policy, over), 1000)
+    Hierarchy::new(Chaining::new(&config, env.spec(), initiation, policy, over), 10_000)
 }
 
-/// Trains until the episode after which nothing new can happen, and tells when each skill was born and fixed.
-fn train(seed: u64, episodes: u64) -> (Dsc, Vec<(u64, usize)>) {
-    let mut env = TimeLimit::new(Corridor::new(5), 50);
+/// Trains in a world, and tells in which episodes skills were born.
+fn train_in(
+    mut env: impl Environment<Observation = Vec<f32>, Action = usize>,
+    seed: u64,
+    episodes: u64,
+) -> (Dsc, Vec<(u64, usize)>) {
     let mut agent = agent(&env);
     let mut births = Vec::new();
     for number in 0..episodes {
         let mut ctx = Context::training(Seed(seed), number);
-        let start = Seed(seed).number("start", number);
+        // Even and odd starts in turn, for a world with two of them.
+        let start = 2 * Seed(seed).number("start", number).div_ceil(4) + number % 2;
         episode(&mut env, &mut agent, start, &mut ctx, |_, _| {}).unwrap();
         let skills = agent.skills().len();
         if births.last().map_or(0, |(_, known)| *known) < skills {
@@ -63,6 +74,11 @@ fn train(seed: u64, episodes: u64) -> (Dsc, Vec<(u64, usize)>) {
         }
     }
     (agent, births)
+}
+
+/// Five cells, until the episode after which nothing new can happen.
+fn train(seed: u64, episodes: u64) -> (Dsc, Vec<(u64, usize)>) {
+    train_in(TimeLimit::new(Corridor::new(5), 50), seed, episodes)
 }
 
 /// The states and the acting skills of a frozen episode.
@@ -116,4 +132,101 @@ fn watching_changes_nothing() {
 fn a_covered_start_ends_the_chain() {
     let (agent, _) = train(3, 200);
     assert_eq!(agent.skills().len(), 2);
+}
+
+/// Segments of three observations bring two new cells to every skill, however the walk was: who enters a set at its
+/// edge was beside it before, and one further before that, or already inside.
+#[test]
+fn the_length_of_the_chain_follows_from_the_length_of_the_corridor() {
+    for cells in [5, 8, 20, 35, 50] {
+        let (agent, _) =
+            train_in(TimeLimit::new(Corridor::new(cells), 40 * cells as u32), 1, 4 * cells as u64 + 20);
+        let chain: Vec<_> = agent.skills().iter().map(|s| (s.skill, s.enters)).collect();
+        let skills = (cells as u32 - 1).div_ceil(2);
+        let expected: Vec<_> = (1..=skills).map(|k| (k, (k > 1).then(|| k - 1))).collect();
+        assert_eq!(chain, expected, "{cells} cells");
+        let alone = {
+            let mut env = TimeLimit::new(Corridor::new(cells), 40 * cells as u32);
+            let mut steps = 0;
+            let mut ctx = Context::evaluation(Seed(0), 0);
+            episode(&mut env, &mut *agent.chain_alone().unwrap(), 0, &mut ctx, |_, skill| {
+                assert!(skill > 0);
+                steps += 1;
+            })
+            .unwrap();
+            steps
+        };
+        assert_eq!(alone, cells - 1, "the chain alone walks straight through {cells} cells");
+    }
+}
+
+/// Nine cells with the goal in the middle; episodes start at one end or the other.
+struct Fork {
+    spec: Spec,
+    at: usize,
+}
+
+impl Fork {
+    fn new() -> Self {
+        let spec = Spec {
+            name: "fork",
+            about: "a row of nine cells with the goal in the middle",
+            observation: Space::Box([Dimension::linear("cell", "", 0.0, 8.0)].into()),
+            action: Space::Discrete(2),
+            goal: Some(Goal { dims: vec![0], at: vec![4.0], tolerance: 0.25 }),
+            place: vec![0],
+            time_limit: None,
+            success_reward: 0.0,
+        };
+        Self { spec, at: 0 }
+    }
+}
+
+impl Environment for Fork {
+    type Observation = Vec<f32>;
+    type Action = usize;
+
+    fn spec(&self) -> &Spec {
+        &self.spec
+    }
+
+    fn reset(&mut self, seed: u64) {
+        self.at = if seed.is_multiple_of(2) { 0 } else { 8 };
+    }
+
+    fn step(&mut self, action: &usize) -> Result<Step, Refused> {
+        self.at = if *action == 1 { (self.at + 1).min(8) } else { self.at.saturating_sub(1) };
+        Ok(match self.at == 4 {
+            true => Step { reward: 0.0, end: Some(End::Terminated) },
+            false => Step { reward: -1.0, end: None },
+        })
+    }
+
+    fn observe(&mut self, out: &mut Vec<f32>) {
+        out.clear();
+        out.push(self.at as f32);
+    }
+}
+
+#[test]
+fn two_starts_grow_two_branches() {
+    for seed in 0..5 {
+        let (agent, _) = train_in(TimeLimit::new(Fork::new(), 50), seed, 80);
+        let skills = agent.skills();
+        assert_eq!(skills.iter().filter(|s| s.enters.is_none()).count(), 2, "two skills reach the goal");
+        let mut branches: Vec<Vec<usize>> = leaves(&skills)
+            .into_iter()
+            .map(|leaf| {
+                let chain = chain_from(&skills, leaf);
+                assert_eq!(chain.len(), 2);
+                let inside = |cell: &usize| {
+                    let members = agent.members(&vec![*cell as f32]);
+                    *cell != 4 && chain.iter().any(|k| members[*k as usize - 1])
+                };
+                (0..9).filter(inside).collect()
+            })
+            .collect();
+        branches.sort();
+        assert_eq!(branches, [[0, 1, 2, 3], [5, 6, 7, 8]], "seed {seed}");
+    }
 }

@@ -5,6 +5,9 @@ use std::path::Path;
 use super::Done;
 use crate::run::{Run, Summary};
 
+/// Skills that are told one by one.
+const SKILLS: usize = 25;
+
 pub(super) fn evaluate(path: &Path, episodes: Option<u64>, checkpoint: Option<&Path>) -> Done {
     let mut run = Run::open(path, checkpoint)?;
     if let Some(episodes) = episodes {
@@ -28,22 +31,39 @@ pub(super) fn report(summary: &Summary) {
         summary.env_steps,
         summary.wall_seconds
     );
-    println!("  training success, last 50 episodes   {}", percent(summary.success_last_50));
-    println!(
-        "  frozen success, {} episodes          {}   median steps {}   by skills {}",
-        summary.eval_episodes,
-        percent(summary.eval_success),
-        steps(summary.eval_median_steps),
-        percent(summary.eval_skill_share)
-    );
-    if let Some(chain) = summary.chain_success {
+    if summary.paid {
+        println!("  training success, last 50 episodes   {}", percent(summary.success_last_50));
+        println!(
+            "  frozen success, {} episodes          {}   median steps {}   by skills {}",
+            summary.eval_episodes,
+            percent(summary.eval_success),
+            steps(summary.eval_median_steps),
+            percent(summary.eval_skill_share)
+        );
+    } else {
+        println!("  nothing was paid in any episode, so there is no success to tell of");
+    }
+    if let Some(chain) = summary.chain_success.filter(|_| summary.paid) {
         println!(
             "  the chain alone                      {}   median steps {}",
             percent(chain),
             steps(summary.chain_median_steps)
         );
     }
-    for set in &summary.sets {
+    if let Some(graph) = &summary.graph {
+        println!("  skill graph                          {} vertices, {} edges", graph.vertices, graph.edges);
+    }
+    if let Some(goals) = &summary.goals {
+        println!(
+            "  goals                                {} seen, {} plausible, {} mastered",
+            goals.seen, goals.plausible, goals.mastered
+        );
+    }
+    if summary.graph.is_some() {
+        // A skill a vertex, of which there may be hundreds: `inroads goals` tells of those.
+        return;
+    }
+    for set in summary.sets.iter().take(SKILLS) {
         let skill = &set.skill;
         let target = skill.enters.map_or_else(|| "the goal".to_owned(), |k| format!("skill {k}"));
         let area =
@@ -52,5 +72,8 @@ pub(super) fn report(summary: &Summary) {
             "  skill {} reaches {target}: {} of {} executions{area}",
             skill.skill, skill.successes, skill.executions
         );
+    }
+    if let Some(more) = summary.sets.len().checked_sub(SKILLS + 1) {
+        println!("  and {} more, in summary.json", more + 1);
     }
 }

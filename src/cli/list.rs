@@ -2,12 +2,12 @@
 
 use inroads_envs::registry;
 
-use crate::assembly::AGENTS;
+use crate::assembly::agents;
 
 #[allow(clippy::print_stdout)] // what the command is for
 pub(super) fn list() {
     println!("agents");
-    table(&AGENTS.iter().map(|entry| (entry.name, entry.about)).collect::<Vec<_>>());
+    table(&agents().map(|entry| (entry.name, entry.about)).collect::<Vec<_>>());
     println!("\nenvironments");
     table(&registry::entries().map(|entry| (entry.name, entry.about)).collect::<Vec<_>>());
     println!("\ntrain one in the other: inroads train AGENT ENVIRONMENT");

@@ -2,7 +2,9 @@
 
 mod certify;
 mod evaluate;
+mod goals;
 mod list;
+mod plan;
 mod play;
 mod plot;
 mod progress;
@@ -41,6 +43,16 @@ enum Command {
         #[arg(long)]
         checkpoint: Option<PathBuf>,
     },
+    /// Show the goals of a run's agent, or the vertices of its skill graph
+    Goals {
+        /// A run's folder
+        run: PathBuf,
+        /// Look at this checkpoint instead of the newest
+        #[arg(long)]
+        checkpoint: Option<PathBuf>,
+    },
+    /// Plan on a run's skill graph, and act the plan out
+    Plan(plan::Arguments),
     /// Draw the figures of one run, or the learning curves of several together
     Plot {
         /// Runs' folders
@@ -79,6 +91,8 @@ pub fn main() -> ExitCode {
         Command::Evaluate { run, episodes, checkpoint } => {
             evaluate::evaluate(&run, episodes, checkpoint.as_deref())
         }
+        Command::Goals { run, checkpoint } => goals::goals(&run, checkpoint.as_deref()),
+        Command::Plan(arguments) => plan::plan(&arguments),
         Command::Plot { runs, out } => plot::plot(&runs, &out),
         Command::Render(arguments) => render::render(&arguments),
         Command::Play(arguments) => play::play(&arguments),

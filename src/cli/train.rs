@@ -84,7 +84,7 @@ pub(super) fn train(arguments: &Arguments) -> Done {
         Ended::Complete => {
             let (summary, frozen) = run.summarise()?;
             report(&summary);
-            draw::figures(&run, &frozen)?;
+            draw::figures(&mut run, &frozen)?;
             eprintln!("figures are in {}", run.folder.figures().display());
             Ok(())
         }

@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
+use image::RgbImage;
 use tiny_skia::{
-    FillRule, LineCap, LineJoin, Mask, Paint, PathBuilder, Pixmap, Stroke, StrokeDash, Transform,
+    FillRule, LineCap, LineJoin, Mask, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, StrokeDash,
+    Transform,
 };
 
 use super::error::{FigureError, write};
@@ -171,6 +173,39 @@ impl Canvas {
     pub(super) fn disc(&mut self, (x, y): (f32, f32), radius: f32, colour: Colour) {
         if let Some(path) = PathBuilder::from_circle(x, y, radius) {
             self.fill(&path, colour, Transform::identity());
+        }
+    }
+
+    /// A circle.
+    pub(super) fn ring(&mut self, (x, y): (f32, f32), radius: f32, colour: Colour, width: f32) {
+        if let Some(path) = PathBuilder::from_circle(x, y, radius) {
+            let stroke = Stroke { width, ..Stroke::default() };
+            let (paint, clip) = (paint(colour), self.clip.as_ref());
+            self.pixels.stroke_path(&path, &paint, &stroke, Transform::identity(), clip);
+        }
+    }
+
+    /// A picture, its pixels as squares, so strong: 0 is white, 1 its own colours.
+    pub(super) fn picture(&mut self, picture: &RgbImage, area: Area, strength: f32) {
+        let width = self.pixels.width();
+        let columns = (area.x.round() as u32)..(area.right().round() as u32).min(width);
+        let rows = (area.y.round() as u32)..(area.bottom().round() as u32).min(self.pixels.height());
+        if picture.width() == 0 || picture.height() == 0 {
+            return;
+        }
+        let nearest = |at: u32, from: f32, length: f32, count: u32| {
+            (((at as f32 + 0.5 - from) / length * count as f32) as u32).min(count - 1)
+        };
+        for y in rows {
+            for x in columns.clone() {
+                let at_x = nearest(x, area.x, area.w, picture.width());
+                let at_y = nearest(y, area.y, area.h, picture.height());
+                let faded = |value: u8| 255 - ((255.0 - f32::from(value)) * strength).round() as u8;
+                let [r, g, b] = picture.get_pixel(at_x, at_y).0.map(faded);
+                if let Some(colour) = PremultipliedColorU8::from_rgba(r, g, b, 255) {
+                    self.pixels.pixels_mut()[(y * width + x) as usize] = colour;
+                }
+            }
         }
     }
 

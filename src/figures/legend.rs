@@ -1,8 +1,13 @@
 //! What the marks of a picture mean: centred rows below it, where they can hide nothing.
 
+use inroads_discovery::record::GoalState;
+
 use super::canvas::{Align, Area, Canvas, Font};
+use super::goal_space;
+use super::graph::{self, Role};
+use super::kept;
 use super::maze;
-use super::palette::{Colour, FLOOR, SOFT, WALL, WHITE, faint};
+use super::palette::{self, Colour, FLOOR, GOAL, SOFT, WALL, WHITE, faint};
 use super::text::{self, Weight};
 
 /// The mark that an entry explains.
@@ -24,6 +29,27 @@ pub(super) enum Mark {
     Positive,
     /// An example of failure.
     Negative,
+    /// Where the goal is, below other marks.
+    Region,
+    /// A vertex of a graph.
+    Vertex,
+    /// Vertices of small and of large value.
+    Ramp,
+    /// A special vertex.
+    Ring(Role),
+    /// An edge that leads there with a probability, and whether it is part of a plan.
+    Arrow(f64, bool),
+    /// An edge that nothing has followed.
+    Hoped,
+    /// A goal in a state.
+    Goals(GoalState),
+    /// A feature that a subgoal keeps, and one that it drops.
+    Kept,
+    Dropped,
+    /// A column that should be empty.
+    Distractor,
+    /// A filled disc.
+    Dot(Colour),
 }
 
 /// One mark and its words.
@@ -54,8 +80,11 @@ impl Mark {
             Self::Curve(_) | Self::Level(_) => 34.0,
             Self::Line(_) => 26.0,
             Self::Inside(_) | Self::Outside => 27.0,
-            Self::Goal | Self::Start => 18.0,
-            Self::Positive | Self::Negative => 10.0,
+            Self::Goal | Self::Start | Self::Dot(_) | Self::Region => 18.0,
+            Self::Positive | Self::Negative | Self::Dropped => 10.0,
+            Self::Vertex | Self::Ring(_) | Self::Goals(_) | Self::Kept | Self::Distractor => 20.0,
+            Self::Ramp => 42.0,
+            Self::Arrow(..) | Self::Hoped => 34.0,
         }
     }
 
@@ -87,6 +116,19 @@ impl Mark {
             Self::Start => maze::start(canvas, middle, 7.5),
             Self::Positive => maze::positive(canvas, middle),
             Self::Negative => maze::negative(canvas, middle),
+            Self::Region => canvas.disc(middle, 8.0, faint(GOAL, 0.35)),
+            Self::Vertex => graph::vertex(canvas, middle, 7.0, Role::Plain),
+            Self::Ring(role) => graph::vertex(canvas, middle, 5.5, role),
+            Self::Ramp => graph::ramp(canvas, (x, y)),
+            Self::Arrow(probability, planned) => {
+                graph::sample(canvas, (x, y), w, (probability, planned, false))
+            }
+            Self::Hoped => graph::sample(canvas, (x, y), w, (1.0, false, true)),
+            Self::Goals(state) => goal_space::tile(canvas, swatch.grown(1.0), state),
+            Self::Kept => canvas.areas([swatch], palette::colour(1)),
+            Self::Dropped => canvas.disc(middle, 2.5, WALL),
+            Self::Distractor => canvas.areas([swatch], faint(GOAL, kept::TINT)),
+            Self::Dot(colour) => canvas.disc(middle, 7.0, colour),
         }
     }
 }

@@ -56,6 +56,18 @@ pub(super) fn faint(colour: Colour, alpha: f32) -> Colour {
     Colour { alpha, ..colour }
 }
 
+/// The colour of a share between 0 and 1: from pale over the palette's blue to dark, so that it is read in grey too.
+pub(super) fn shade(part: f32) -> Colour {
+    const STOPS: [[f32; 3]; 3] = [[226.0, 239.0, 248.0], [0.0, 114.0, 178.0], [4.0, 42.0, 84.0]];
+    let along = part.clamp(0.0, 1.0) * 2.0;
+    let stop = if along < 1.0 { 0 } else { 1 };
+    let mix = |axis: usize| {
+        let (low, high) = (STOPS[stop][axis], STOPS[stop + 1][axis]);
+        (low + (high - low) * (along - stop as f32)).round() as u8
+    };
+    rgb(mix(0), mix(1), mix(2))
+}
+
 /// What a skill's number is called in legends: 0 is the global option, whose skills are primitive actions.
 pub fn skill_name(skill: usize) -> String {
     match skill {

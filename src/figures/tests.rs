@@ -1,5 +1,7 @@
 //! The files themselves: whether they are pictures, of which size, with which colours, and what odd data do to them.
 
+mod systems;
+
 use std::collections::HashSet;
 use std::fs::File;
 use std::path::PathBuf;
@@ -170,6 +172,12 @@ fn trajectories_have_the_colour_of_the_acting_skill_and_y_upwards() {
     let ([width, height], pixels) = read_png(&scratch);
     assert!(width == 676 && height > width);
     assert!(has(&pixels, palette::colour(0)) && has(&pixels, palette::colour(3)));
+    let crowd = |skills: usize| {
+        let points = (0..skills).map(|skill| ([skill as f32 * 0.1, 0.0], skill)).collect();
+        trajectories(&scratch.0, &u_maze(), &[Trajectory { points }]).unwrap();
+        read_png(&scratch).0[1]
+    };
+    assert!(crowd(15) > crowd(14) && crowd(15) == crowd(90), "the legend names some and counts the others");
     // The goal is at y = 8, so in the upper half of the map.
     let goal = pixels.iter().position(|pixel| *pixel == palette::GOAL.rgb).unwrap();
     assert!(goal < (width * 330) as usize);

@@ -21,6 +21,8 @@ pub struct Trajectory {
 
 const MARGIN: f32 = 18.0;
 const WIDTH: f32 = 640.0;
+/// Skills that the legend names; more, no reader tells apart by colour.
+const NAMED: usize = 14;
 
 /// Draws all trajectories on one map, as one PNG, with a legend of the skills that acted.
 pub fn trajectories(
@@ -34,12 +36,19 @@ pub fn trajectories(
         trajectories.iter().flat_map(|trajectory| trajectory.points.iter().map(|point| point.1)).collect();
     skills.sort_unstable();
     skills.dedup();
-    let named = skills.into_iter().map(|skill| Entry::new(Mark::Line(colour(skill)), skill_name(skill)));
+    let named =
+        skills.iter().take(NAMED).map(|skill| Entry::new(Mark::Line(colour(*skill)), skill_name(*skill)));
     let entries: Vec<Entry> = named.chain(places(map)).collect();
+    let note = match skills.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        1 => "and another skill".to_owned(),
+        more => format!("and {more} more skills"),
+    };
 
     let tall = WIDTH * map.shape();
     let below = MARGIN + tall + 12.0;
-    let height = below + legend::height(&entries, WIDTH) + MARGIN - 8.0;
+    let legend_height = legend::height(&entries, WIDTH);
+    let height = below + legend_height + legend::note_height(&note, WIDTH) + MARGIN - 8.0;
     let mut canvas = Canvas::new(path, WIDTH + 2.0 * MARGIN, height)?;
     let view = View::fit(map.bounds, Area { x: MARGIN, y: MARGIN, w: WIDTH, h: tall });
     maze::floor(&mut canvas, &view);
@@ -52,6 +61,7 @@ pub fn trajectories(
         maze::starts(canvas, map, &view);
     });
     legend::draw(&mut canvas, &entries, MARGIN + WIDTH / 2.0, below, WIDTH);
+    legend::draw_note(&mut canvas, &note, MARGIN + WIDTH / 2.0, below + legend_height, WIDTH);
     canvas.save(path)
 }
 

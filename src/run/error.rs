@@ -77,6 +77,12 @@ pub enum RunError {
         /// What the system says.
         why: std::io::Error,
     },
+    /// There is no plan.
+    #[error(transparent)]
+    Plan(#[from] crate::session::PlanError),
+    /// There are no goals to look at.
+    #[error("agent `{0}` has neither goals nor a skill graph; its skills are in summary.json")]
+    NoGoals(String),
     /// There is no skill to act with.
     #[error("this run's agent has no learned skill to act with; leave --chain-alone out")]
     NoSkills,

@@ -10,7 +10,7 @@ use inroads_agents::Bag;
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::json;
 
-use super::{RunError, checkpoint};
+use super::{Growth, RunError, checkpoint};
 use crate::{config::Config, session::EpisodeMetrics};
 
 /// A run's folder.
@@ -71,6 +71,11 @@ impl Folder {
         self.path.join("sessions.jsonl")
     }
 
+    /// The goal space after 1, 2, … 9, 10, 20, … episodes, a line each; not there while the agent has no goals.
+    pub fn goals(&self) -> PathBuf {
+        self.path.join("goals.jsonl")
+    }
+
     /// The pictures.
     pub fn figures(&self) -> PathBuf {
         self.path.join("figures")
@@ -113,6 +118,19 @@ impl Folder {
         append(&self.timings(), &timing)
     }
 
+    /// Writes a line of the goal space's growth.
+    pub(super) fn append_goals(&self, growth: &Growth) -> Result<(), RunError> {
+        append(&self.goals(), growth)
+    }
+
+    /// How the goal space grew; nothing where the agent has no goals.
+    ///
+    /// # Errors
+    /// [`RunError::Io`] when the file cannot be read or a line is not ours.
+    pub fn read_goals(&self) -> Result<Vec<Growth>, RunError> {
+        if self.goals().exists() { read_lines(&self.goals()) } else { Ok(Vec::new()) }
+    }
+
     /// Logs one call of the training loop.
     pub(super) fn log_session(
         &self,
@@ -126,8 +144,14 @@ impl Folder {
         append(&self.sessions(), &line)
     }
 
-    /// Drops all lines after the first `episodes` of both logs.
+    /// Drops all lines of the logs that were written after the first `episodes`.
     pub(super) fn rewind(&self, episodes: u64) -> Result<(), RunError> {
+        if self.goals().exists() {
+            let text = fs::read_to_string(self.goals()).map_err(RunError::io("read", &self.goals()))?;
+            let growth = |line: &str| serde_json::from_str::<Growth>(line).ok();
+            let before = |line: &&str| growth(line).is_some_and(|growth| growth.episodes <= episodes);
+            rewrite(&self.goals(), &text.split_inclusive('\n').filter(before).collect::<String>())?;
+        }
         for file in [self.metrics(), self.timings()] {
             let text = fs::read_to_string(&file).map_err(RunError::io("read", &file))?;
             // A killed run may have left half a line; `lines` counts it, and it is among those dropped.
@@ -136,9 +160,7 @@ impl Folder {
             if found < episodes {
                 return Err(RunError::Short { file, found, expected: episodes });
             }
-            let beside = file.with_extension("part");
-            fs::write(&beside, kept.concat()).map_err(RunError::io("write", &beside))?;
-            fs::rename(&beside, &file).map_err(RunError::io("write", &file))?;
+            rewrite(&file, &kept.concat())?;
         }
         Ok(())
     }
@@ -156,6 +178,13 @@ impl Folder {
         let sessions: Vec<serde_json::Value> = read_lines(&self.sessions())?;
         Ok(sessions.iter().filter_map(|s| s["seconds"].as_f64()).sum())
     }
+}
+
+/// Puts a text in the place of a file's, which is never half written.
+fn rewrite(file: &Path, text: &str) -> Result<(), RunError> {
+    let beside = file.with_extension("part");
+    fs::write(&beside, text).map_err(RunError::io("write", &beside))?;
+    fs::rename(&beside, file).map_err(RunError::io("write", file))
 }
 
 fn append(path: &Path, line: &impl Serialize) -> Result<(), RunError> {

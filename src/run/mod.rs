@@ -1,17 +1,19 @@
 //! A run: training with its folder, stopped and resumed without a difference.
 //!
 //! A run folder holds `config.toml` (every value), `metrics.jsonl` (a line an episode, without times),
-//! `timings.jsonl` (a line an episode, with them), `sessions.jsonl` (a line each time somebody ran it),
-//! `checkpoints/`, `figures/` and, when it is done, `summary.json`.
+//! `timings.jsonl` (a line an episode, with them), `sessions.jsonl` (a line each time somebody ran it), for agents that
+//! have goals `goals.jsonl` (their states now and then), `checkpoints/`, `figures/` and, when it is done, `summary.json`.
 
 mod checkpoint;
 mod error;
 mod folder;
+mod growth;
 mod summary;
 
 pub use error::RunError;
 pub use folder::Folder;
-pub use summary::{SetSummary, Summary};
+pub use growth::Growth;
+pub use summary::{GoalSummary, GraphSummary, SetSummary, Summary};
 
 use std::{
     path::Path,
@@ -118,6 +120,7 @@ impl Run {
             let metrics = self.session.train()?;
             let seconds = episode_began.elapsed().as_secs_f64();
             self.folder.append(&metrics, seconds)?;
+            self.log_goals()?;
             watch(&metrics);
             if self.session.progress().0 - saved >= self.config.settings.checkpoint_every {
                 saved = self.save()?;
@@ -138,9 +141,23 @@ impl Run {
         episodes >= settings.episodes || (settings.max_steps > 0 && steps >= settings.max_steps)
     }
 
+    fn log_goals(&self) -> Result<(), RunError> {
+        let (episodes, _) = self.session.progress();
+        if !Growth::due(episodes) {
+            return Ok(());
+        }
+        match self.session.goals() {
+            goals if goals.is_empty() => Ok(()),
+            goals => self.folder.append_goals(&Growth::of(episodes, goals)),
+        }
+    }
+
     fn save(&self) -> Result<u64, RunError> {
         let (episodes, _) = self.session.progress();
         self.folder.write_checkpoint(episodes, &self.session.save())?;
         Ok(episodes)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use inroads_discovery::record::{GoalRecord, GoalState};
 use serde::{Deserialize, Serialize};
 
 use super::{Run, RunError};
@@ -29,6 +30,9 @@ pub struct Summary {
     pub updates: u64,
     /// Seconds of training, over all sessions.
     pub wall_seconds: f64,
+    /// Whether anything but 0 was ever paid, in training or in the frozen episodes. Where nothing was, because the world
+    /// has no task or nobody came so far, shares of successes tell nothing.
+    pub paid: bool,
     /// Share of successes in the last 50 training episodes (or in all, when there are fewer).
     pub success_last_50: f64,
     /// Frozen, noise-free episodes that each of the following comes from.
@@ -49,6 +53,43 @@ pub struct Summary {
     pub starts_covered: f64,
     /// The learned skills.
     pub sets: Vec<SetSummary>,
+    /// The skill graph; none where the agent makes none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub graph: Option<GraphSummary>,
+    /// The goal space; none where the agent has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub goals: Option<GoalSummary>,
+}
+
+/// How large a skill graph is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GraphSummary {
+    /// Vertices.
+    pub vertices: usize,
+    /// Edges that plans may use.
+    pub edges: usize,
+}
+
+/// How far a goal space is; each number counts those of the next one too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct GoalSummary {
+    /// Goals that were observed.
+    pub seen: usize,
+    /// Goals that may be pursued.
+    pub plausible: usize,
+    /// Goals that are mastered.
+    pub mastered: usize,
+}
+
+impl GoalSummary {
+    fn of(goals: &[GoalRecord]) -> Self {
+        let from = |state| goals.iter().filter(|goal| goal.state >= state).count();
+        Self {
+            seen: from(GoalState::Pruned),
+            plausible: from(GoalState::Plausible),
+            mastered: from(GoalState::Mastered),
+        }
+    }
 }
 
 /// One learned skill.
@@ -85,6 +126,7 @@ impl Run {
         let alone = self.evaluate(Protocol::ChainAlone, n)?;
         let last = &metrics[metrics.len().saturating_sub(50)..];
         let (episodes, env_steps) = self.session.progress();
+        let goals = self.session.goals();
         let settings = &self.config.settings;
         let summary = Summary {
             agent: settings.agent.clone(),
@@ -95,6 +137,8 @@ impl Run {
             env_steps,
             updates: metrics.last().map_or(0, |m| m.updates.values().sum()),
             wall_seconds: self.folder.seconds()?,
+            paid: metrics.iter().any(|m| m.reward != 0.0 || m.success)
+                || frozen.iter().any(|w| w.summary.reward != 0.0 || w.summary.success),
             success_last_50: share(last.iter().map(|m| m.success)),
             eval_episodes: n,
             eval_success: share(frozen.iter().map(|w| w.summary.success)),
@@ -103,8 +147,13 @@ impl Run {
             chain_success: (!alone.is_empty()).then(|| share(alone.iter().map(|w| w.summary.success))),
             chain_median_steps: median_steps(&alone),
             skills: self.session.skills().len(),
-            starts_covered: share(frozen.iter().map(|w| self.session.members(&w.path[0].0).contains(&true))),
+            starts_covered: share(frozen.iter().map(|w| w.covered)),
             sets: self.sets(),
+            graph: self
+                .session
+                .graph()
+                .map(|graph| GraphSummary { vertices: graph.vertices.len(), edges: graph.edges.len() }),
+            goals: (!goals.is_empty()).then(|| GoalSummary::of(&goals)),
         };
         Ok((summary, frozen))
     }

@@ -62,6 +62,13 @@ impl ActorCritic {
         floats(policy(&self.actor, rows(states, self.inputs, &self.device)))
     }
 
+    /// What the critic expects of the actor's actions at these states: Q(s, μ(s)).
+    pub(crate) fn values(&self, states: Vec<f32>) -> Vec<f32> {
+        let states = rows(states, self.inputs, &self.device);
+        let actions = policy(&self.actor, states.clone());
+        floats(self.critic.forward(states, actions))
+    }
+
     /// What the target critic expects of the target actor's actions at these states: Q'(s, μ'(s)).
     pub(crate) fn target_values(&self, states: Vec<f32>) -> Vec<f32> {
         let states = rows(states, self.inputs, &self.device);

@@ -139,7 +139,8 @@ fn check_tolerance(tolerance: f64) -> Result<(), Unfit> {
     if tolerance > 0.0 && tolerance.is_finite() { Ok(()) } else { Err(Unfit::Tolerance(tolerance)) }
 }
 
-fn check_paired(what: &'static str, given: usize, rows: usize) -> Result<(), Unfit> {
+/// Whether there is one of them a row.
+pub(crate) fn check_paired(what: &'static str, given: usize, rows: usize) -> Result<(), Unfit> {
     if given == rows { Ok(()) } else { Err(Unfit::Unpaired { what, rows, given }) }
 }
 
@@ -147,7 +148,8 @@ fn check_weight(weight: f64, what: impl FnOnce() -> String) -> Result<(), Unfit>
     if weight >= 0.0 && weight.is_finite() { Ok(()) } else { Err(Unfit::Weight { what: what(), weight }) }
 }
 
-fn check_weights(weights: &[f64], rows: usize) -> Result<(), Unfit> {
+/// Whether there is a weight a row, and each is one.
+pub(crate) fn check_weights(weights: &[f64], rows: usize) -> Result<(), Unfit> {
     check_paired("weights", weights.len(), rows)?;
     weights.iter().enumerate().try_for_each(|(row, weight)| check_weight(*weight, || format!("row {row}")))
 }

@@ -27,12 +27,23 @@ pub struct ChainConfig {
     /// Updates of a new skill's policy on past experience, before it is executed (authors: one for every
     /// step of the global replay buffer).
     pub pretrain: u32,
+    /// What an execution goes for (4.1.2).
+    pub subgoals: Subgoals,
+    /// Greatest distance from a subgoal state that counts as there, in the units of the domain (authors: 0.6).
+    pub tolerance: f32,
+    /// States of an episode that policies are taught to reach, in hindsight, where they are told states.
+    pub hindsight: u32,
+    /// Whether a set is fixed when its initiation period is over (3.1.3), or goes on being refined (chapters 4 and 5).
+    pub freeze: bool,
     /// Whether every state along an execution is a sample for the policy over options (authors' code), or only
     /// the one in which it was chosen.
     pub intra_option: bool,
     /// Greatest share of a new skill's states that may lie in the sets of other skills with the same subgoal;
     /// above it they tell of the same branch of the tree (authors' tree code: 0.35).
     pub sibling_overlap: f32,
+    /// Whether a step that ends the task in a state of some set is a trigger of the task, so that a second branch of the
+    /// tree may reach the goal itself; else it is one of that set.
+    pub goal_first: bool,
     /// γ of the task's rewards, for the policy over options.
     pub discount: f32,
     /// Learned skills at most.
@@ -51,8 +62,13 @@ impl Default for ChainConfig {
             option_reward: OptionReward::Sparse,
             lessons: Lessons::All,
             pretrain: 3000,
+            subgoals: Subgoals::Set,
+            tolerance: 0.6,
+            hindsight: 4,
+            freeze: true,
             intra_option: true,
             sibling_overlap: 0.35,
+            goal_first: false,
             discount: 0.99,
             max_skills: 20,
         }
@@ -77,8 +93,26 @@ impl ChainConfig {
                 return Err(format!("{name} is {value}; it must lie in [0, 1]"));
             }
         }
+        if !(self.tolerance.is_finite() && self.tolerance >= 0.0) {
+            return Err(format!("tolerance is {}; it must be 0 or above", self.tolerance));
+        }
+        if self.subgoals != Subgoals::Set && self.option_reward == OptionReward::Dense {
+            return Err("option_reward = \"dense\" measures the way to a set; with subgoals that are states it must be \"sparse\"".into());
+        }
         Ok(())
     }
+}
+
+/// What an execution of a skill goes for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Subgoals {
+    /// Any state of its subgoal: policies are told nothing (chapter 3).
+    Set,
+    /// A state that the parent is known to succeed from, drawn at random: for robustness (4.1.2).
+    Sample,
+    /// The state from which the rest of the chain is worth most: for hierarchical optimality (4.1.2).
+    DynamicProgramming,
 }
 
 /// When a skill's initiation set becomes a salient event.

@@ -8,12 +8,11 @@ use inroads_agents::{
 };
 
 use super::{OptionReward, repertoire::Repertoire};
-use crate::{Initiation, Subgoal};
+use crate::{Initiation, Subgoal, hindsight::stretches};
 
-impl<O: AsRef<[f32]>, I: Initiation<O>> Repertoire<O, I> {
-    /// The lessons about a subgoal in some steps of episode `number`: each stretch until the subgoal is attained,
-    /// or until the steps end without. Steps inside the subgoal teach nothing: no skill is executed there.
-    pub(super) fn lessons<A>(
+impl<O: AsRef<[f32]> + Clone, A, I: Initiation<O, A>> Repertoire<O, A, I> {
+    /// The lessons about a subgoal in some steps of episode `number`.
+    pub(super) fn lessons(
         &self,
         subgoal: Subgoal,
         number: u64,
@@ -21,27 +20,28 @@ impl<O: AsRef<[f32]>, I: Initiation<O>> Repertoire<O, I> {
         steps: Range<u32>,
         reward: OptionReward,
     ) -> Vec<Lesson> {
-        let mut lessons = Vec::new();
-        let mut from = None;
-        for step in steps.clone() {
-            if self.inside(subgoal, &episode.observations[step as usize]) {
-                continue;
-            }
-            let start = *from.get_or_insert(step);
-            let attained = self.attained_by(subgoal, episode, step as usize);
-            if attained || step + 1 == steps.end {
-                let steps = start..step + 1;
-                let rewards = match reward {
-                    OptionReward::Sparse => None,
-                    OptionReward::Dense => {
-                        let afters = &episode.observations[start as usize + 1..=step as usize + 1];
-                        Some(afters.iter().map(|after| -self.distance(subgoal, after)).collect())
-                    }
-                };
-                lessons.push(Lesson { episode: number, steps, aim: Aim::Subgoal { attained }, rewards });
-                from = None;
-            }
-        }
-        lessons
+        let inside = |step: usize| self.inside(subgoal, &episode.observations[step]);
+        let attained = |step| self.attained_by(subgoal, episode, step);
+        let dense = |steps: &Range<u32>| {
+            let afters = &episode.observations[steps.start as usize + 1..=steps.end as usize];
+            afters.iter().map(|after| -self.distance(subgoal, after)).collect()
+        };
+        let lesson = |(steps, attained): (Range<u32>, bool)| Lesson {
+            episode: number,
+            rewards: match reward {
+                OptionReward::Sparse => None,
+                OptionReward::Dense => Some(dense(&steps)),
+            },
+            steps,
+            aim: Aim::Subgoal { attained },
+            goal: None,
+        };
+        stretches(steps, inside, attained).into_iter().map(lesson).collect()
     }
+}
+
+/// The same lesson for a policy that could read goals, and is told none.
+pub(super) fn about<G>(lesson: Lesson) -> Lesson<G> {
+    let Lesson { episode, steps, aim, rewards, goal: _ } = lesson;
+    Lesson { episode, steps, aim, goal: None, rewards }
 }

@@ -2,25 +2,25 @@
 
 use std::marker::PhantomData;
 
-use inroads_agents::{Checkpoint, checkpoint, experience::Episode};
+use inroads_agents::{Checkpoint, Context, Experience, Lesson, checkpoint, experience::Episode};
 use inroads_envs::{End, Goal, Spec};
 
-use super::skill::{Phase, Skill};
-use crate::{Initiation, SkillId, Subgoal};
+use super::skill::{Moment, Phase, Skill, observation};
+use crate::{Initiation, SkillId, Subgoal, initiation::Act};
 
-/// Skills over observations `O` with a family of initiation sets `I`.
-pub(super) struct Repertoire<O, I> {
+/// Skills over observations `O` and actions `A` with a family of initiation sets `I`.
+pub(super) struct Repertoire<O, A, I> {
     goal: Option<Goal>,
     success_reward: f32,
     initiation: I,
     /// Row 0 is the global option.
     skills: Vec<Skill>,
-    observation: PhantomData<fn(&O)>,
+    kinds: PhantomData<fn(&O, &A)>,
 }
 
-checkpoint!([O, I] Repertoire<O, I>; plain: skills; parts: initiation; where I: Checkpoint);
+checkpoint!([O, A, I] Repertoire<O, A, I>; plain: skills; parts: initiation; where I: Checkpoint);
 
-impl<O: AsRef<[f32]>, I: Initiation<O>> Repertoire<O, I> {
+impl<O: AsRef<[f32]> + Clone, A, I: Initiation<O, A>> Repertoire<O, A, I> {
     /// The global option alone.
     pub(super) fn new(spec: &Spec, initiation: I) -> Self {
         Self {
@@ -28,7 +28,7 @@ impl<O: AsRef<[f32]>, I: Initiation<O>> Repertoire<O, I> {
             success_reward: spec.success_reward,
             initiation,
             skills: vec![Skill::new(Subgoal::Task, Phase::Fixed, 0)],
-            observation: PhantomData,
+            kinds: PhantomData,
         }
     }
 
@@ -42,13 +42,20 @@ impl<O: AsRef<[f32]>, I: Initiation<O>> Repertoire<O, I> {
     }
 
     /// The numbers of the learned skills, oldest first.
-    pub(super) fn learned(&self) -> impl DoubleEndedIterator<Item = SkillId> + ExactSizeIterator + use<O, I> {
+    pub(super) fn learned(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = SkillId> + ExactSizeIterator + use<O, A, I> {
         (1..self.skills.len()).map(|k| SkillId(k as u32))
     }
 
     /// Whether skill `k` may start at `s`, by its initiation set alone.
     pub(super) fn contains(&self, k: SkillId, s: &O) -> bool {
         self.initiation.contains(k, s)
+    }
+
+    /// Whether another skill may aim at `s` in order to enter the set of skill `k`.
+    pub(super) fn targets(&self, k: SkillId, s: &O) -> bool {
+        self.initiation.targets(k, s)
     }
 
     /// Whether some learned skill may start at `s`.
@@ -60,7 +67,7 @@ impl<O: AsRef<[f32]>, I: Initiation<O>> Repertoire<O, I> {
     pub(super) fn inside(&self, subgoal: Subgoal, s: &O) -> bool {
         match subgoal {
             Subgoal::Task => self.goal.as_ref().is_some_and(|goal| goal.reached(s.as_ref())),
-            Subgoal::Enter(parent) => self.contains(parent, s),
+            Subgoal::Enter(parent) => self.targets(parent, s),
         }
     }
 
@@ -73,7 +80,7 @@ impl<O: AsRef<[f32]>, I: Initiation<O>> Repertoire<O, I> {
     }
 
     /// Whether step number `step` of a remembered episode attains the subgoal.
-    pub(super) fn attained_by<A>(&self, subgoal: Subgoal, episode: &Episode<O, A>, step: usize) -> bool {
+    pub(super) fn attained_by(&self, subgoal: Subgoal, episode: &Episode<O, A>, step: usize) -> bool {
         let last = step + 1 == episode.actions.len();
         let end = if last { episode.end } else { None };
         self.attained(subgoal, &episode.observations[step + 1], episode.rewards[step], end)
@@ -113,19 +120,59 @@ impl<O: AsRef<[f32]>, I: Initiation<O>> Repertoire<O, I> {
         k
     }
 
-    /// Counts an execution of skill `k` that ended at `step` of `episode`.
-    pub(super) fn executed(&mut self, k: SkillId, episode: u64, step: u32, success: bool) {
-        self.skills[k.index()].executed(episode, step, success);
+    /// Remembers what is known of a new skill: states that it succeeds from, and where its subgoal was entered.
+    pub(super) fn known(&mut self, k: SkillId, positives: &[Moment], entered: &[Moment]) {
+        self.skills[k.index()].succeeds_from(positives);
+        self.skills[k.index()].affected(entered);
     }
 
-    /// Refines the set of skill `k` by states that led to its subgoal, or did not.
-    pub(super) fn refine(&mut self, k: SkillId, states: &[O], success: bool) {
-        self.initiation.outcome(k, states, success);
+    /// Counts an execution of skill `k` in `episode` that entered its subgoal at a moment, or failed.
+    pub(super) fn executed(&mut self, k: SkillId, episode: u64, entered: Option<Moment>) {
+        self.skills[k.index()].executed(episode, entered);
     }
 
-    /// Ends the initiation period of skill `k`.
-    pub(super) fn fix(&mut self, k: SkillId) {
-        self.skills[k.index()].phase = Phase::Fixed;
+    /// Refines the set of skill `k` by states that led to its subgoal.
+    pub(super) fn succeeded(&mut self, k: SkillId, from: &[Moment], all: &Experience<O, A>) {
+        let states: Vec<O> = from.iter().filter_map(|m| observation(all, *m)).cloned().collect();
+        self.initiation.outcome(k, &states, true);
+        self.skills[k.index()].succeeds_from(from);
+    }
+
+    /// Refines the set of skill `k` by a state that did not lead to its subgoal.
+    pub(super) fn failed(&mut self, k: SkillId, from: Moment, all: &Experience<O, A>) {
+        if let Some(state) = observation(all, from) {
+            self.initiation.outcome(k, std::slice::from_ref(state), false);
+        }
+    }
+
+    /// Tells the set of skill `k` of an execution from there that the end of the episode cut short.
+    pub(super) fn interrupted(&mut self, k: SkillId, from: Moment, all: &Experience<O, A>) {
+        if let Some(state) = observation(all, from) {
+            self.initiation.interrupted(k, state);
+        }
+    }
+
+    /// Gives the set of skill `k` a lesson about its subgoal, until it is fixed.
+    pub(super) fn lesson(&mut self, k: SkillId, lesson: &Lesson) {
+        if self.skill(k).phase != Phase::Fixed {
+            self.initiation.lesson(k, lesson);
+        }
+    }
+
+    /// Lets the set of skill `k` learn from its lessons.
+    pub(super) fn learn(
+        &mut self,
+        k: SkillId,
+        all: &Experience<O, A>,
+        act: &Act<'_, O, A>,
+        ctx: &mut Context,
+    ) {
+        self.initiation.learn(k, all, act, ctx);
+    }
+
+    /// Ends the initiation period of skill `k`: it enters another phase.
+    pub(super) fn mature(&mut self, k: SkillId, phase: Phase) {
+        self.skills[k.index()].phase = phase;
     }
 
     /// Positive and negative examples behind the set of skill `k`.

@@ -1,14 +1,17 @@
 //! The policy over options (3.1.2): which skill to call where.
 
 mod deep;
+mod scan;
 mod tabular;
 
 pub use deep::DeepOverSkills;
+pub use scan::Scan;
 pub use tabular::TabularOverSkills;
 
 use std::ops::Range;
 
-use inroads_agents::{Checkpoint, Context, Experience};
+use inroads_agents::{Checkpoint, Context, Experience, draw::argmax};
+use inroads_envs::Rng;
 use serde::{Deserialize, Serialize};
 
 use crate::SkillId;
@@ -98,14 +101,7 @@ impl Epsilon {
 }
 
 /// The admissible skill of the greatest value; ties go to a random one.
-fn greedy(values: &[f32], admissible: &[SkillId], rng: &mut inroads_envs::Rng) -> SkillId {
-    use rand::RngExt;
-    let best = admissible.iter().map(|k| values[k.index()]).fold(f32::NEG_INFINITY, f32::max);
-    let ties: Vec<_> = admissible.iter().filter(|k| values[k.index()] == best).collect();
-    match ties.len() {
-        // Every value is NaN: nothing is known, so the first will do; the run reports the loss.
-        0 => admissible[0],
-        1 => *ties[0],
-        n => *ties[rng.random_range(0..n)],
-    }
+fn greedy(values: &[f32], admissible: &[SkillId], rng: &mut Rng) -> SkillId {
+    let admitted: Vec<_> = admissible.iter().map(|k| values[k.index()]).collect();
+    admissible[argmax(&admitted, rng)]
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use inroads_agents::{Context, Experience, checkpoint, tabular::Key};
+use inroads_agents::{Context, Experience, Key, checkpoint};
 use rand::RngExt;
 
 use super::{Choice, Epsilon, PolicyOverSkills, greedy};
@@ -10,7 +10,7 @@ use crate::SkillId;
 
 /// SMDP Q-learning on a table.
 pub struct TabularOverSkills {
-    values: BTreeMap<Vec<i64>, Vec<f32>>,
+    values: BTreeMap<u128, Vec<f32>>,
     /// The value of each skill at states that were never visited: one a skill.
     defaults: Vec<f32>,
     rate: f32,
@@ -37,8 +37,8 @@ impl TabularOverSkills {
         }
     }
 
-    fn row(&self, key: &[i64]) -> Vec<f32> {
-        self.values.get(key).unwrap_or(&self.defaults).clone()
+    fn row(&self, key: u128) -> Vec<f32> {
+        self.values.get(&key).unwrap_or(&self.defaults).clone()
     }
 }
 
@@ -47,7 +47,7 @@ impl<O: Key> PolicyOverSkills<O> for TabularOverSkills {
         if ctx.explore && ctx.acting.random::<f32>() < self.epsilon.at(self.decisions) {
             return admissible[ctx.acting.random_range(0..admissible.len())];
         }
-        greedy(&self.row(&s.key()), admissible, &mut ctx.acting)
+        greedy(&self.row(s.key()), admissible, &mut ctx.acting)
     }
 
     fn record<A>(&mut self, choice: Choice, _: &Experience<O, A>) {
@@ -62,7 +62,7 @@ impl<O: Key> PolicyOverSkills<O> for TabularOverSkills {
             &episode.observations[choice.steps.start as usize],
             &episode.observations[choice.steps.end as usize],
         );
-        let next = self.row(&after.key());
+        let next = self.row(after.key());
         let best = admissible(after).iter().map(|k| next[k.index()]).fold(f32::NEG_INFINITY, f32::max);
         let target = choice.reward + if choice.terminal { 0.0 } else { choice.discount * best };
         let defaults = &self.defaults;
@@ -73,14 +73,14 @@ impl<O: Key> PolicyOverSkills<O> for TabularOverSkills {
     }
 
     fn grow(&mut self, triggers: &[O]) {
-        let best = triggers.iter().flat_map(|s| self.row(&s.key())).fold(f32::NEG_INFINITY, f32::max);
+        let best = triggers.iter().flat_map(|s| self.row(s.key())).fold(f32::NEG_INFINITY, f32::max);
         let best = if best.is_finite() { best } else { 0.0 };
         self.defaults.push(best);
         self.values.values_mut().for_each(|row| row.push(best));
     }
 
     fn values(&self, s: &O) -> Vec<f32> {
-        self.row(&s.key())
+        self.row(s.key())
     }
 
     fn updates(&self) -> u64 {

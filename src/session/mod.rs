@@ -1,15 +1,27 @@
 //! An agent in an environment, whatever their kinds.
 
-use inroads_agents::{Actor, Bag, Context, Corrupt, Summary, episode};
-use inroads_discovery::SkillRecord;
+mod pair;
+mod spot;
+#[cfg(test)]
+pub(crate) mod stub;
+#[cfg(test)]
+mod tests;
+mod travel;
+
+pub use spot::{PlanError, Spot};
+pub use travel::Travelled;
+
+use inroads_agents::{Bag, Corrupt, Summary};
+use inroads_discovery::record::{GoalRecord, GraphRecord, PlanRecord, SkillRecord};
 use inroads_envs::{
-    Environment, Refused, Seed, Spec,
-    registry::{self, AnyEnvironment},
+    Annotated, Environment, Refused, Seed, Spec,
+    registry::{self, AnyAnnotated, AnyEnvironment},
 };
 use serde::{Deserialize, Serialize};
 
+use self::pair::{Pair, Seen};
 use crate::{
-    assembly::{self, AGENTS, BoxedAgent, Build, Vector},
+    assembly::{self, AgentEntry, Build, Vector},
     config::{Config, ConfigError, Settings, World},
 };
 
@@ -69,6 +81,8 @@ pub struct Watched {
     pub start: u64,
     /// What was done; with the seed it is the whole episode.
     pub actions: Vec<Action>,
+    /// Whether the initiation set of a learned skill has the first state.
+    pub covered: bool,
     /// What it came to.
     pub summary: Summary,
 }
@@ -114,8 +128,28 @@ pub trait Session {
     /// The agent's skills.
     fn skills(&self) -> Vec<SkillRecord>;
 
-    /// Of all skills: whether the observation is in its initiation set.
+    /// Of all skills: whether the observation is in its initiation set. Nothing where agents are told more than vectors.
     fn members(&self, observation: &Vector) -> Vec<bool>;
+
+    /// The agent's skill graph, if it has one.
+    fn graph(&self) -> Option<GraphRecord>;
+
+    /// The agent's goal space; nothing when it has none.
+    fn goals(&self) -> Vec<GoalRecord>;
+
+    /// The way from one place to another by the agent's skill graph. The start is that of evaluation episode 0.
+    ///
+    /// # Errors
+    /// [`PlanError`] when there is no graph, no such place or no way.
+    fn plan(&mut self, from: &Spot, to: &Spot) -> Result<PlanRecord, PlanError>;
+
+    /// Evaluation episode number `index`, on the way to one place and from there to another, by plans on the skill graph
+    /// that are made anew wherever the agent finds itself. An episode begins at its own start, so `from` has to be
+    /// reached too, within the same time limit.
+    ///
+    /// # Errors
+    /// [`PlanError`] when there is no graph or no such place, or the environment refused an action.
+    fn travel(&mut self, from: &Spot, to: &Spot, index: u64) -> Result<Travelled, PlanError>;
 
     /// Everything learned, with the progress.
     fn save(&self) -> Bag;
@@ -132,13 +166,25 @@ pub trait Session {
 /// # Errors
 /// [`ConfigError`] when a name is unknown, or the agent cannot act in the environment.
 pub fn build(config: &Config) -> Result<Box<dyn Session>, ConfigError> {
-    match environment(&config.settings)? {
+    let settings = &config.settings;
+    let entry = assembly::agent(&settings.agent)?;
+    let pictures = || {
+        ConfigError::World(format!(
+            "`{}` is seen as pictures, which no agent reads yet; see it as symbols: --see symbols",
+            settings.environment
+        ))
+    };
+    if let (None, None, Some(_)) = (entry.continuous, entry.discrete, entry.annotated) {
+        let made = settings.world.with_options(|o| registry::make_annotated(&settings.environment, o))?;
+        return match made {
+            AnyAnnotated::Vectors(env) => annotated(env, config),
+            AnyAnnotated::Frames(_) => Err(pictures()),
+        };
+    }
+    match environment(settings)? {
         AnyEnvironment::Vectors(env) => continuous(env, config),
         AnyEnvironment::Choices(env) => discrete(env, config),
-        AnyEnvironment::Frames(_) => Err(ConfigError::World(format!(
-            "`{}` is seen as pictures, which no agent reads yet; see it as symbols: --see symbols",
-            config.settings.environment
-        ))),
+        AnyEnvironment::Frames(_) => Err(pictures()),
     }
 }
 
@@ -162,34 +208,48 @@ pub fn world(name: &str, own: &World) -> Result<AnyEnvironment, ConfigError> {
 ///
 /// # Errors
 /// [`ConfigError`] when the agent is unknown, or cannot act with such actions.
-pub fn continuous(env: BoxedEnvironment<Vec<f32>>, config: &Config) -> Result<Box<dyn Session>, ConfigError> {
-    let build = assembly::agent(&config.settings.agent)?.continuous;
-    pair(env, build, config, |e| e.continuous.is_some())
+pub fn continuous(
+    env: BoxedEnvironment<Vector, Vector>,
+    config: &Config,
+) -> Result<Box<dyn Session>, ConfigError> {
+    pair(env, config, |entry| entry.continuous)
 }
 
 /// Builds the session of an environment of your own, whose actions are choices.
 ///
 /// # Errors
 /// As [`continuous`].
-pub fn discrete(env: BoxedEnvironment<usize>, config: &Config) -> Result<Box<dyn Session>, ConfigError> {
-    let build = assembly::agent(&config.settings.agent)?.discrete;
-    pair(env, build, config, |e| e.discrete.is_some())
+pub fn discrete(
+    env: BoxedEnvironment<Vector, usize>,
+    config: &Config,
+) -> Result<Box<dyn Session>, ConfigError> {
+    pair(env, config, |entry| entry.discrete)
 }
 
-/// An environment with actions of type `A`.
-pub type BoxedEnvironment<A> = Box<dyn Environment<Observation = Vector, Action = A> + Send>;
-
-fn pair<A: Clone + Into<Action> + 'static>(
-    env: BoxedEnvironment<A>,
-    build: Option<Build<A>>,
+/// Builds the session of an environment of your own that tells which proto-goals hold, and whose actions are choices.
+///
+/// # Errors
+/// As [`continuous`].
+pub fn annotated(
+    env: BoxedEnvironment<Annotated<Vector>, usize>,
     config: &Config,
-    fits: fn(&assembly::AgentEntry) -> bool,
+) -> Result<Box<dyn Session>, ConfigError> {
+    pair(env, config, |entry| entry.annotated)
+}
+
+/// An environment with observations of type `O` and actions of type `A`.
+pub type BoxedEnvironment<O, A> = Box<dyn Environment<Observation = O, Action = A> + Send>;
+
+fn pair<O: Seen + 'static, A: Clone + Into<Action> + 'static>(
+    env: BoxedEnvironment<O, A>,
+    config: &Config,
+    of: fn(&AgentEntry) -> Option<Build<O, A>>,
 ) -> Result<Box<dyn Session>, ConfigError> {
     let settings = &config.settings;
-    let Some(build) = build else {
-        let fitting: Vec<_> = AGENTS.iter().filter(|e| fits(e)).map(|e| e.name).collect();
+    let Some(build) = of(assembly::agent(&settings.agent)?) else {
+        let fitting: Vec<_> = assembly::agents().filter(|e| of(e).is_some()).map(|e| e.name).collect();
         return Err(ConfigError::UnknownName(format!(
-            "agent `{}` cannot act in `{}`, whose actions are of another kind; these can: {}",
+            "agent `{}` cannot act in `{}`, whose observations or actions are of another kind; these can: {}",
             settings.agent,
             settings.environment,
             fitting.join(", ")
@@ -197,88 +257,5 @@ fn pair<A: Clone + Into<Action> + 'static>(
     };
     let seed = Seed(settings.seed);
     let agent = build(env.spec(), &config.agent, settings.backend, seed)?;
-    Ok(Box::new(Pair { env, agent, seed, episodes: 0, env_steps: 0 }))
-}
-
-struct Pair<A> {
-    env: BoxedEnvironment<A>,
-    agent: BoxedAgent<A>,
-    seed: Seed,
-    episodes: u64,
-    env_steps: u64,
-}
-
-impl<A: Clone + Into<Action>> Session for Pair<A> {
-    fn spec(&self) -> &Spec {
-        self.env.spec()
-    }
-
-    fn train(&mut self) -> Result<EpisodeMetrics, Refused> {
-        let number = self.episodes;
-        let mut ctx = Context::training(self.seed, number);
-        let mut skill_steps = 0;
-        let start = self.seed.number("train-start", number);
-        let summary = episode(&mut *self.env, &mut *self.agent, start, &mut ctx, |_, source| {
-            skill_steps += u32::from(source > 0);
-        })?;
-        self.episodes += 1;
-        self.env_steps += u64::from(summary.steps);
-        Ok(EpisodeMetrics {
-            episode: number,
-            env_steps: self.env_steps,
-            steps: summary.steps,
-            reward: summary.reward,
-            success: summary.success,
-            skills: self.agent.skills().len(),
-            skill_steps,
-            updates: self.agent.updates().into_iter().map(|(name, n)| (name.to_owned(), n)).collect(),
-            fault: summary.fault,
-        })
-    }
-
-    fn progress(&self) -> (u64, u64) {
-        (self.episodes, self.env_steps)
-    }
-
-    fn evaluate(&mut self, protocol: Protocol, index: u64) -> Result<Option<Watched>, Refused> {
-        let actor: Option<Box<dyn Actor<Vector, A> + '_>> = match protocol {
-            Protocol::Frozen => Some(self.agent.frozen()),
-            Protocol::ChainAlone => self.agent.chain_alone(),
-        };
-        let Some(mut actor) = actor else { return Ok(None) };
-        let mut ctx = Context::evaluation(self.seed, index);
-        let start = self.seed.number("evaluate-start", index);
-        let (mut path, mut actions) = (Vec::new(), Vec::new());
-        let summary = episode(&mut *self.env, &mut *actor, start, &mut ctx, |t, source| {
-            if path.is_empty() {
-                path.push((t.before.clone(), source));
-            }
-            if let Some((_, skill)) = path.last_mut() {
-                *skill = source;
-            }
-            path.push((t.after.clone(), source));
-            actions.push(t.action.clone().into());
-        })?;
-        Ok(Some(Watched { path, start, actions, summary }))
-    }
-
-    fn skills(&self) -> Vec<SkillRecord> {
-        self.agent.skills()
-    }
-
-    fn members(&self, observation: &Vector) -> Vec<bool> {
-        self.agent.members(observation)
-    }
-
-    fn save(&self) -> Bag {
-        let mut bag = Bag::default();
-        bag.put("progress", &(self.episodes, self.env_steps));
-        bag.put_part("agent", &*self.agent);
-        bag
-    }
-
-    fn load(&mut self, bag: &Bag) -> Result<(), Corrupt> {
-        (self.episodes, self.env_steps) = bag.get("progress")?;
-        bag.get_part("agent", &mut *self.agent)
-    }
+    Ok(Box::new(Pair::new(env, agent, seed)))
 }

@@ -1,5 +1,11 @@
 //! From runs to figures: what the pictures of a run show, in the plain data that `crate::figures` draws.
 
+mod goals;
+mod graph;
+
+pub use goals::Questions;
+pub use graph::{differ, feature_name, tried, whereabouts};
+
 use std::path::Path;
 
 use inroads_envs::{maze::Picture, registry};
@@ -8,7 +14,7 @@ use crate::{
     config::Settings,
     figures::{self, Map, Panel, Pose, Raster, Rect, Series, SetPicture, Trajectory},
     run::{Run, RunError},
-    session::{EpisodeMetrics, Watched},
+    session::{self, EpisodeMetrics, Watched},
 };
 
 /// Columns and rows of the raster on which initiation sets are drawn and measured.
@@ -17,6 +23,8 @@ const RASTER: usize = 160;
 const BORDER: f32 = 0.75;
 /// Episodes over which curves are smoothed.
 const SMOOTHING: usize = 20;
+/// Initiation sets in one figure.
+const SETS: usize = 25;
 /// Solution trajectories in one figure.
 const TRAJECTORIES: usize = 5;
 
@@ -33,13 +41,15 @@ impl View {
         let picture =
             settings.world.with_options(|options| registry::picture_with(&settings.environment, options));
         let picture = picture.ok()??;
+        // A maze without a task has a map with a goal all the same.
+        let has_goal = session::environment(settings).is_ok_and(|env| env.spec().goal.is_some());
         let point = |p: [f64; 2]| [p[0] as f32, p[1] as f32];
         let rect = |r: &inroads_envs::maze::Rectangle| Rect { min: point(r.low), max: point(r.high) };
         let free = rect(&picture.bounds);
         let map = Map {
             walls: picture.walls.iter().map(rect).collect(),
             bounds: Rect { min: free.min.map(|x| x - BORDER), max: free.max.map(|x| x + BORDER) },
-            goal: Some((point(picture.goal), picture.tolerance as f32)),
+            goal: has_goal.then(|| (point(picture.goal), picture.tolerance as f32)),
             starts: picture.starts.iter().map(|s| point(*s)).collect(),
         };
         Some(Self { picture, map })
@@ -60,19 +70,27 @@ impl View {
     }
 }
 
-/// Draws all figures of one run into its folder.
+/// Draws all figures of one run into its folder; no learning curve where nothing was ever paid.
 ///
 /// # Errors
 /// [`RunError`] names the file that cannot be written.
-pub fn figures(run: &Run, frozen: &[Watched]) -> Result<(), RunError> {
+pub fn figures(run: &mut Run, frozen: &[Watched]) -> Result<(), RunError> {
     let folder = run.folder.figures();
-    curves(std::slice::from_ref(run), &folder.join("learning-curve.png"))?;
+    if run.folder.read_metrics()?.iter().any(|m| m.reward != 0.0 || m.success) {
+        curves(std::slice::from_ref(run), &folder.join("learning-curve.png"))?;
+    }
+    goals::growth(run)?;
+    graph::graph(run)?;
     let Some(view) = View::of(&run.config.settings) else { return Ok(()) };
     let skills = run.session.skills();
     if !skills.is_empty() {
-        let pictures: Vec<_> = skills
-            .iter()
-            .zip(view.sets(run))
+        let mut most: Vec<_> = skills.iter().zip(view.sets(run)).collect();
+        // Where there are more than one could look at, those that are used.
+        most.sort_by_key(|(skill, _)| std::cmp::Reverse(skill.executions));
+        most.truncate(SETS);
+        most.sort_by_key(|(skill, _)| skill.skill);
+        let pictures: Vec<_> = most
+            .into_iter()
             .map(|(skill, region)| SetPicture {
                 title: match skill.enters {
                     None => format!("skill {} → reaches the goal", skill.skill),

@@ -1,31 +1,11 @@
-//! Option policies (3.1.1).
+//! A policy of its own for every skill, as chapter 3 has it.
 
 use inroads_agents::{
     Bag, Checkpoint, Clip, Context, Corrupt, Experience, Learner, Lesson, Memory, Pace, Replay,
 };
 
-use crate::SkillId;
-
-/// A family of option policies.
-pub trait SkillPolicy<O, A>: Checkpoint {
-    /// A new skill `k` begins with a copy of the global option's policy (3.1.2).
-    fn born(&mut self, k: SkillId);
-
-    /// Skill `k`'s action at `s`.
-    fn act(&self, k: SkillId, memory: &mut Memory, s: &O, ctx: &mut Context) -> A;
-
-    /// Something for skill `k` to learn from.
-    fn lesson(&mut self, k: SkillId, lesson: Lesson);
-
-    /// Minibatch updates of skill `k`'s policy; none while it has too few lessons.
-    fn practise(&mut self, k: SkillId, updates: u64, all: &Experience<O, A>, ctx: &mut Context);
-
-    /// The updates that one more step of skill `k` makes due; none before the global option has warmed up.
-    fn step(&mut self, k: SkillId, all: &Experience<O, A>, ctx: &mut Context);
-
-    /// Updates made so far, over all skills.
-    fn updates(&self) -> u64;
-}
+use super::SkillPolicy;
+use crate::{Call, SkillId};
 
 /// A learner of its own for every skill, as chapter 3 has it.
 pub struct PerSkill<L> {
@@ -54,22 +34,23 @@ impl<L: Clone> PerSkill<L> {
     }
 }
 
-impl<O, A, L: Learner<O, A> + Clone> SkillPolicy<O, A> for PerSkill<L>
-where
-    Self: Checkpoint,
-{
+impl<O, A, G, L: Learner<O, A, ()> + Clone> SkillPolicy<O, A, G> for PerSkill<L> {
     fn born(&mut self, k: SkillId) {
         assert_eq!(k.index(), self.members.len(), "skills are born in the order of their numbers");
         let learner = (self.fork)(&self.members[0].learner);
         self.members.push(Member { learner, replay: Replay::new(self.capacity), steps: 0, updates: 0 });
     }
 
-    fn act(&self, k: SkillId, memory: &mut Memory, s: &O, ctx: &mut Context) -> A {
-        self.members[k.index()].learner.act(memory, s, ctx)
+    fn act(&self, memory: &mut Memory, call: &Call<G>, s: &O, ctx: &mut Context) -> A {
+        self.members[call.skill.index()].learner.act(memory, s, None, ctx)
     }
 
-    fn lesson(&mut self, k: SkillId, lesson: Lesson) {
-        self.members[k.index()].replay.push(lesson);
+    fn values(&self, memory: &Memory, s: &O, calls: &[(SkillId, Option<&G>)]) -> Vec<f32> {
+        calls.iter().flat_map(|(k, _)| self.members[k.index()].learner.values(memory, s, &[None])).collect()
+    }
+
+    fn lesson(&mut self, k: SkillId, lesson: Lesson<G>) {
+        self.members[k.index()].replay.push(lesson.without_goal());
     }
 
     fn practise(&mut self, k: SkillId, updates: u64, all: &Experience<O, A>, ctx: &mut Context) {
@@ -79,7 +60,7 @@ where
         if updates == 0 || member.replay.len() < batch {
             return;
         }
-        let mut clips: Vec<Clip<O, A>> = Vec::with_capacity(batch);
+        let mut clips: Vec<Clip<O, A, ()>> = Vec::with_capacity(batch);
         for _ in 0..updates {
             member.replay.sample(all, batch, &mut ctx.learning, &mut clips);
             member.learner.learn(&clips, ctx);
@@ -92,7 +73,7 @@ where
         member.steps += 1;
         let due = self.pace.due(member.steps);
         if k != SkillId::GLOBAL || member.replay.len() >= self.pace.warm_up {
-            self.practise(k, due, all, ctx);
+            SkillPolicy::<O, A, G>::practise(self, k, due, all, ctx);
         }
     }
 

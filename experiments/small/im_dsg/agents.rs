@@ -1,0 +1,78 @@
+//! Who is compared, as tuned on DoorKey-6x6 (`tuning`). All have the same table: returns of five steps, eight clips an
+//! update, an update a step, a discount of 0.97, all of their steps in the replay.
+
+use inroads::{
+    agents::{Curious, Flat, Pace, TabularQ, novelty::Counts, tabular::TabularConfig},
+    assembly::{
+        graphs::{ImDsgConfig, im_dsg},
+        parts::PlannerKind,
+    },
+    envs::{Space, Spec},
+};
+
+use super::Boxed;
+
+/// An agent.
+pub(crate) struct Entrant {
+    pub(crate) name: &'static str,
+    pub(crate) build: fn(&Spec) -> Boxed,
+}
+
+/// All of them.
+pub(crate) const AGENTS: [Entrant; 4] = [
+    Entrant { name: "IM-DSG", build: |spec| Box::new(im_dsg(spec, &ours(PlannerKind::AbstractMdp))) },
+    Entrant {
+        name: "IM-DSG without planning",
+        build: |spec| Box::new(im_dsg(spec, &ours(PlannerKind::Direct))),
+    },
+    Entrant {
+        name: "counts",
+        build: |spec| flat(spec, &Simple { rate: 0.1, initial: 0.2, weight: 0.01, ..Simple::default() }),
+    },
+    Entrant {
+        name: "epsilon-greedy",
+        build: |spec| flat(spec, &Simple { initial: 0.2, ..Simple::default() }),
+    },
+];
+
+/// IM-DSG as tuned: the defaults of `inroads train im-dsg`.
+pub(crate) fn ours(planner: PlannerKind) -> ImDsgConfig {
+    ImDsgConfig { planner, ..ImDsgConfig::default() }
+}
+
+/// What is tuned of Q-learning.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Simple {
+    pub(crate) rate: f32,
+    pub(crate) epsilon: f32,
+    pub(crate) initial: f32,
+    /// b; 0 for no bonus.
+    pub(crate) weight: f32,
+    /// Whether the mean of all bonuses is taken from each.
+    pub(crate) centred: bool,
+}
+
+impl Default for Simple {
+    fn default() -> Self {
+        Self { rate: 0.5, epsilon: 0.1, initial: 0.0, weight: 0.0, centred: true }
+    }
+}
+
+/// Steps that are remembered: more than any training has.
+const CAPACITY: usize = 200_000;
+
+/// Q-learning, with a bonus for counts if it weighs anything.
+pub(crate) fn flat(spec: &Spec, simple: &Simple) -> Boxed {
+    let Space::Discrete(choices) = spec.action else { unreachable!("these worlds have choices") };
+    let Simple { rate, epsilon, initial, weight, centred } = *simple;
+    let config = TabularConfig { rate, epsilon, initial, discount: 0.97, ..TabularConfig::default() };
+    let pace = Pace { updates_per_step: 1.0, warm_up: config.batch };
+    let table = TabularQ::new(choices, &config);
+    let curious = Curious::new(table.clone(), CAPACITY, pace).spanning(5);
+    let curious = if weight > 0.0 {
+        curious.with_novelty(Box::new(Counts::default()), weight).centred(centred).sober(table)
+    } else {
+        curious
+    };
+    Box::new(Flat::new(curious, CAPACITY))
+}

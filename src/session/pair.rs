@@ -1,0 +1,172 @@
+//! An agent and its environment, of kinds that are known.
+
+use inroads_agents::{Actor, Bag, Context, Corrupt, episode};
+use inroads_discovery::record::{GoalRecord, GraphRecord, PlanRecord, Query, SkillRecord};
+use inroads_envs::{Annotated, Refused, Seed, Spec};
+
+use super::{
+    Action, BoxedEnvironment, EpisodeMetrics, PlanError, Protocol, Session, Spot, Travelled, Watched,
+    spot::Located, travel::Journey,
+};
+use crate::assembly::{BoxedAgent, Vector};
+
+/// An observation with a vector in it, which pictures are drawn from.
+pub(super) trait Seen: Clone + Default {
+    /// What is seen.
+    fn seen(&self) -> &Vector;
+
+    /// The observation in which this is seen; none where that is not all there is to know of it.
+    fn wholly(seen: &Vector) -> Option<&Self>;
+}
+
+impl Seen for Vector {
+    fn seen(&self) -> &Vector {
+        self
+    }
+
+    fn wholly(seen: &Vector) -> Option<&Self> {
+        Some(seen)
+    }
+}
+
+impl Seen for Annotated<Vector> {
+    fn seen(&self) -> &Vector {
+        &self.seen
+    }
+
+    fn wholly(_: &Vector) -> Option<&Self> {
+        None
+    }
+}
+
+pub(super) struct Pair<O, A> {
+    env: BoxedEnvironment<O, A>,
+    agent: BoxedAgent<O, A>,
+    seed: Seed,
+    episodes: u64,
+    env_steps: u64,
+}
+
+impl<O: Seen, A: Clone> Pair<O, A> {
+    pub(super) fn new(env: BoxedEnvironment<O, A>, agent: BoxedAgent<O, A>, seed: Seed) -> Self {
+        Self { env, agent, seed, episodes: 0, env_steps: 0 }
+    }
+
+    /// Begins evaluation episode number `index`; its first observation.
+    fn first(&mut self, index: u64) -> O {
+        let mut first = O::default();
+        self.env.reset(self.seed.number("evaluate-start", index));
+        self.env.observe(&mut first);
+        first
+    }
+}
+
+impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
+    fn spec(&self) -> &Spec {
+        self.env.spec()
+    }
+
+    fn train(&mut self) -> Result<EpisodeMetrics, Refused> {
+        let number = self.episodes;
+        let mut ctx = Context::training(self.seed, number);
+        let mut skill_steps = 0;
+        let start = self.seed.number("train-start", number);
+        let summary = episode(&mut *self.env, &mut *self.agent, start, &mut ctx, |_, source| {
+            skill_steps += u32::from(source > 0);
+        })?;
+        self.episodes += 1;
+        self.env_steps += u64::from(summary.steps);
+        Ok(EpisodeMetrics {
+            episode: number,
+            env_steps: self.env_steps,
+            steps: summary.steps,
+            reward: summary.reward,
+            success: summary.success,
+            skills: self.agent.skills().len(),
+            skill_steps,
+            updates: self.agent.updates().into_iter().map(|(name, n)| (name.to_owned(), n)).collect(),
+            fault: summary.fault,
+        })
+    }
+
+    fn progress(&self) -> (u64, u64) {
+        (self.episodes, self.env_steps)
+    }
+
+    fn evaluate(&mut self, protocol: Protocol, index: u64) -> Result<Option<Watched>, Refused> {
+        let actor: Option<Box<dyn Actor<O, A> + '_>> = match protocol {
+            Protocol::Frozen => Some(self.agent.frozen()),
+            Protocol::ChainAlone => self.agent.chain_alone(),
+        };
+        let Some(mut actor) = actor else { return Ok(None) };
+        let mut ctx = Context::evaluation(self.seed, index);
+        let start = self.seed.number("evaluate-start", index);
+        let (mut path, mut actions, mut covered) = (Vec::new(), Vec::new(), false);
+        let summary = episode(&mut *self.env, &mut *actor, start, &mut ctx, |t, source| {
+            if path.is_empty() {
+                path.push((t.before.seen().clone(), source));
+                covered = self.agent.members(t.before).contains(&true);
+            }
+            if let Some((_, skill)) = path.last_mut() {
+                *skill = source;
+            }
+            path.push((t.after.seen().clone(), source));
+            actions.push(t.action.clone().into());
+        })?;
+        Ok(Some(Watched { path, start, actions, covered, summary }))
+    }
+
+    fn skills(&self) -> Vec<SkillRecord> {
+        self.agent.skills()
+    }
+
+    fn graph(&self) -> Option<GraphRecord> {
+        self.agent.graph()
+    }
+
+    fn goals(&self) -> Vec<GoalRecord> {
+        self.agent.goals()
+    }
+
+    fn plan(&mut self, from: &Spot, to: &Spot) -> Result<PlanRecord, PlanError> {
+        let first = self.first(0);
+        let graph = self.agent.graph().ok_or(PlanError::NoGraph)?;
+        let [from_place, to_place] = [from, to].map(|spot| spot.located(&first, &graph, self.env.spec()));
+        let (from_place, to_place) = (from_place?, to_place?);
+        if let Located::State(s, _) = &from_place
+            && to_place.holds(&*self.agent, s)
+        {
+            return Ok(PlanRecord { case: Query::Inside, legs: Vec::new(), outside: 1.0 });
+        }
+        let plan = self.agent.plan(&from_place.place(), &to_place.place());
+        plan.ok_or_else(|| PlanError::NoWay { from: from.clone(), to: to.clone() })
+    }
+
+    fn travel(&mut self, from: &Spot, to: &Spot, index: u64) -> Result<Travelled, PlanError> {
+        let first = self.first(index);
+        let graph = self.agent.graph().ok_or(PlanError::NoGraph)?;
+        let [from, to] = [from, to].map(|spot| spot.located(&first, &graph, self.env.spec()));
+        let mut journey = Journey::new(&*self.agent, [from?, to?])?;
+        let mut ctx = Context::evaluation(self.seed, index);
+        let start = self.seed.number("evaluate-start", index);
+        let summary = episode(&mut *self.env, &mut journey, start, &mut ctx, |_, _| ())?;
+        let [departed, arrived] = journey.reached();
+        Ok(Travelled { departed, arrived, summary })
+    }
+
+    fn members(&self, observation: &Vector) -> Vec<bool> {
+        O::wholly(observation).map_or_else(Vec::new, |observation| self.agent.members(observation))
+    }
+
+    fn save(&self) -> Bag {
+        let mut bag = Bag::default();
+        bag.put("progress", &(self.episodes, self.env_steps));
+        bag.put_part("agent", &*self.agent);
+        bag
+    }
+
+    fn load(&mut self, bag: &Bag) -> Result<(), Corrupt> {
+        (self.episodes, self.env_steps) = bag.get("progress")?;
+        bag.get_part("agent", &mut *self.agent)
+    }
+}

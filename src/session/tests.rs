@@ -1,0 +1,50 @@
+//! Plans and journeys of an agent whose graph is known.
+
+use inroads_discovery::record::Query;
+
+use super::{PlanError, Spot, stub};
+
+#[test]
+fn a_plan_tells_its_vertices_and_how_probable_it_is() {
+    let mut session = stub::session();
+    let plan = session.plan(&Spot::Start, &Spot::At(vec![2.0])).unwrap();
+    assert_eq!((plan.case, &plan.legs), (Query::Inside, &vec![(1, 0.5), (2, 0.5)]));
+    assert_eq!(plan.probability(), 0.25);
+    assert!(session.plan(&Spot::Vertex(3), &Spot::Vertex(3)).unwrap().legs.is_empty());
+    let plan = session.plan(&Spot::Start, &Spot::Start).unwrap();
+    assert_eq!((plan.case, plan.legs.len(), plan.outside), (Query::Inside, 0, 1.0), "it is there already");
+}
+
+#[test]
+fn what_is_no_place_and_where_no_way_leads_is_said() {
+    let mut session = stub::session();
+    let mut why = |to: Spot| session.plan(&Spot::Start, &to).unwrap_err().to_string();
+    assert_eq!(why(Spot::Vertex(7)), "there is no vertex 7; the graph has 5 from 0 to 4");
+    assert_eq!(why(Spot::At(vec![1.0, 2.0])), "2 coordinates say no place in `corridor-5`; give 1: cell");
+    assert_eq!(why(Spot::At(vec![7.0])), "cell is 7, outside `corridor-5`: it goes from 0 to 4");
+    assert!(why(Spot::Goal).starts_with("no way leads from the start to the goal on the skill graph"));
+    assert!(session.travel(&Spot::Vertex(7), &Spot::Start, 0).is_err());
+}
+
+#[test]
+fn an_agent_without_a_graph_has_no_plan() {
+    let config = crate::config::Config::defaults("q-learning", "corridor-5").unwrap();
+    let mut session = super::build(&config).unwrap();
+    assert_eq!(session.plan(&Spot::Start, &Spot::Goal), Err(PlanError::NoGraph));
+    assert_eq!(session.travel(&Spot::Start, &Spot::Goal, 0), Err(PlanError::NoGraph));
+}
+
+#[test]
+fn a_journey_departs_from_where_its_plan_begins_and_counts_from_there() {
+    let mut session = stub::session();
+    let mut travel = |from, to| {
+        let journey = session.travel(&from, &to, 3).unwrap();
+        (journey.departed, journey.arrived, journey.summary.steps)
+    };
+    // Cell 4 ends the episode; otherwise 50 steps do, with the walker about the place where it should be.
+    assert_eq!(travel(Spot::Start, Spot::Vertex(2)), (Some(0), Some(2), 50));
+    assert_eq!(travel(Spot::Vertex(3), Spot::Vertex(1)), (Some(3), Some(5), 50));
+    assert_eq!(travel(Spot::Vertex(2), Spot::At(vec![2.0])), (Some(2), Some(2), 50));
+    assert_eq!(travel(Spot::Start, Spot::Goal), (Some(0), Some(4), 4));
+    assert_eq!(travel(Spot::Goal, Spot::Vertex(1)), (Some(4), None, 4));
+}
