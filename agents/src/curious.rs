@@ -2,7 +2,7 @@
 //! and, without a bonus, every flat baseline.
 
 use crate::{
-    Bag, Checkpoint, Clip, Context, Corrupt, Experience, Learner, Lesson, Memory, Novelty, Pace, Replay,
+    Bag, Checkpoint, Clip, Context, Corrupt, Experience, Learned, Learner, Lesson, Memory, Novelty, Practice,
     Running, experience::Rewards,
 };
 
@@ -24,15 +24,12 @@ pub struct Curious<O, L> {
     centred: bool,
     /// Of all bonuses when they were first seen.
     bonuses: Running,
-    replay: Replay,
-    pace: Pace,
-    steps: u64,
-    updates: u64,
+    practice: Practice,
 }
 
 impl<O, L> Curious<O, L> {
-    /// A learner of the task's reward alone, which remembers about `capacity` steps.
-    pub fn new(learner: L, capacity: usize, pace: Pace) -> Self {
+    /// A learner of the task's reward alone.
+    pub fn new(learner: L, practice: Practice) -> Self {
         Self {
             learner,
             sober: None,
@@ -40,10 +37,7 @@ impl<O, L> Curious<O, L> {
             weight: 0.0,
             centred: false,
             bonuses: Running::default(),
-            replay: Replay::new(capacity),
-            pace,
-            steps: 0,
-            updates: 0,
+            practice,
         }
     }
 
@@ -56,11 +50,6 @@ impl<O, L> Curious<O, L> {
     /// Without it a bonus never ends, and where success ends the episode, to live on and collect may be worth more.
     pub fn centred(self, centred: bool) -> Self {
         Self { centred, ..self }
-    }
-
-    /// The same with returns of up to `steps` steps.
-    pub fn spanning(self, steps: u32) -> Self {
-        Self { replay: self.replay.spanning(steps), ..self }
     }
 
     /// The same with a second learner, as young as the first, of the task's reward alone, for who does not explore.
@@ -88,7 +77,7 @@ impl<O, L> Curious<O, L> {
 
     /// Minibatch updates made so far.
     pub fn updates(&self) -> u64 {
-        self.updates
+        self.practice.updates()
     }
 
     /// The action at `s`.
@@ -99,65 +88,70 @@ impl<O, L> Curious<O, L> {
         self.learner(ctx.explore).act(memory, s, None, ctx)
     }
 
-    /// The newest step of the experience is a lesson, and perhaps time to learn.
-    pub fn step<A>(&mut self, all: &Experience<O, A>, ctx: &mut Context)
-    where
-        L: Learner<O, A, ()>,
-    {
-        let number = all.latest();
-        let Some((episode, seen)) = all.episode(number).and_then(|e| Some((e, e.observations.last()?)))
-        else {
-            return;
-        };
-        if let Some(novelty) = &mut self.novelty {
-            if let [first, _] = &episode.observations[..] {
-                novelty.visit(first, ctx);
-            }
-            novelty.visit(seen, ctx);
-            self.bonuses.push(novelty.bonus(seen));
-        }
-        self.replay.forget_before(all.first());
-        self.replay.push(Lesson::task(number, episode.actions.len() as u32 - 1));
-        self.steps += 1;
-        if self.replay.len() >= self.pace.warm_up.max(self.learner.batch()) {
-            for _ in 0..self.pace.due(self.steps) {
-                self.update(all, ctx);
-            }
-        }
+    /// Whether somebody who acts must now note what it remembers ([`Experience::note`]), before it sees observation
+    /// number `step` of an episode.
+    pub fn begins_at(&self, step: u32) -> bool {
+        self.practice.replay().begins_at(step)
     }
 
-    fn update<A>(&mut self, all: &Experience<O, A>, ctx: &mut Context)
+    /// The newest step of an episode is a lesson, and perhaps time to learn.
+    pub fn step<A>(&mut self, number: u64, all: &Experience<O, A>, ctx: &mut Context)
     where
         L: Learner<O, A, ()>,
     {
-        let batch = self.learner.batch();
-        let mut clips: Vec<Clip<O, A, ()>> = Vec::with_capacity(batch);
-        self.replay.sample(all, batch, &mut ctx.learning, &mut clips);
-        self.updates += 1;
-        if let Some(sober) = &mut self.sober {
-            sober.learn(&clips, ctx);
+        let steps = all.length(number);
+        let Some((episode, last)) = all.episode(number).zip(steps.checked_sub(1)) else { return };
+        if let Some(novelty) = &mut self.novelty {
+            if last == 0 {
+                novelty.visit((number, 0), all, ctx);
+            }
+            novelty.visit((number, steps), all, ctx);
+            self.bonuses.push(novelty.bonus(&episode.observations[steps as usize]));
         }
-        let Some(novelty) = &self.novelty else {
-            self.learner.learn(&clips, ctx);
-            return;
-        };
-        let usual = if self.centred { self.bonuses.mean() } else { 0.0 };
-        let scale = self.weight / self.bonuses.deviation().max(SMALLEST);
-        let sums: Vec<Vec<f32>> = clips
-            .iter()
-            .map(|clip| {
-                let bonus = |i: usize| {
-                    let over = clip.terminal && i + 1 == clip.actions.len();
-                    if over { 0.0 } else { scale * (novelty.bonus(&clip.observations[i + 1]) - usual) }
-                };
-                (0..clip.actions.len()).map(|i| clip.reward(i) + bonus(i)).collect()
-            })
-            .collect();
-        for (clip, sum) in clips.iter_mut().zip(&sums) {
-            clip.rewards = Rewards::Given(sum);
+        if self.begins_at(last) {
+            self.practice.push(Lesson::task(number, last));
         }
-        self.learner.learn(&clips, ctx);
+        let Self { learner, sober, novelty, weight, centred, bonuses, practice } = self;
+        let usual = if *centred { bonuses.mean() } else { 0.0 };
+        let scale = *weight / bonuses.deviation().max(SMALLEST);
+        practice.step(learner.batch(), all, ctx, |clips, ctx| {
+            if let Some(sober) = sober {
+                // What it did not remember itself is not its memory.
+                let own: Vec<_> = clips.iter().map(|clip| Clip { memory: &[], ..*clip }).collect();
+                sober.learn(&own, ctx);
+            }
+            match novelty {
+                None => learner.learn(clips, ctx),
+                Some(novelty) => with_bonus(clips, |s| novelty.bonuses(s), usual, scale, learner, ctx),
+            }
+        });
     }
+}
+
+/// One update on clips whose steps pay `scale` · (bonus − `usual`) more each, but for those that terminate.
+fn with_bonus<O, A, L: Learner<O, A, ()>>(
+    clips: &[Clip<O, A, ()>],
+    bonuses: impl Fn(&[&O]) -> Vec<f32>,
+    usual: f32,
+    scale: f32,
+    learner: &mut L,
+    ctx: &mut Context,
+) -> Learned {
+    let reached: Vec<&O> = clips.iter().flat_map(|clip| &clip.observations[clip.lead + 1..]).collect();
+    let mut found = bonuses(&reached).into_iter();
+    let sums: Vec<Vec<f32>> = clips
+        .iter()
+        .map(|clip| {
+            let sum = |i: usize| {
+                let bonus = found.next().unwrap_or(usual);
+                let over = clip.terminal && i + 1 == clip.len();
+                clip.reward(i) + if over { 0.0 } else { scale * (bonus - usual) }
+            };
+            (0..clip.len()).map(sum).collect()
+        })
+        .collect();
+    let paid = clips.iter().zip(&sums).map(|(clip, sum)| Clip { rewards: Rewards::Given(sum), ..*clip });
+    learner.learn(&paid.collect::<Vec<_>>(), ctx)
 }
 
 /// The least spread that bonuses are divided by: while all are alike, none is scaled up without bound.
@@ -172,8 +166,8 @@ impl<O, L: Checkpoint> Checkpoint for Curious<O, L> {
         if let Some(novelty) = &self.novelty {
             bag.put_part("novelty", &**novelty);
         }
-        bag.put("replay", &self.replay);
-        bag.put("counts", &(self.bonuses, self.steps, self.updates));
+        bag.put("practice", &self.practice);
+        bag.put("bonuses", &self.bonuses);
     }
 
     fn load(&mut self, bag: &Bag) -> Result<(), Corrupt> {
@@ -184,8 +178,8 @@ impl<O, L: Checkpoint> Checkpoint for Curious<O, L> {
         if let Some(novelty) = &mut self.novelty {
             bag.get_part("novelty", &mut **novelty)?;
         }
-        self.replay = bag.get("replay")?;
-        (self.bonuses, self.steps, self.updates) = bag.get("counts")?;
+        self.practice = bag.get("practice")?;
+        self.bonuses = bag.get("bonuses")?;
         Ok(())
     }
 }

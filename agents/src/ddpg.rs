@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::nets::{ActorCritic, Backend, Shape, Step};
 use crate::noise::NoiseConfig;
-use crate::{Bag, Checkpoint, Clip, Context, Corrupt, Encode, Encoder, Learner, Memory};
+use crate::{Bag, Checkpoint, Clip, Context, Corrupt, Encode, Encoder, Learned, Learner, Memory};
 
 /// Settings of [`Ddpg`]. Defaults are those of the authors' code (`authors.md`, section 1), which are the DDPG
 /// paper's but for τ (0.001 there); the decay of the critic is the exception.
@@ -195,24 +195,24 @@ impl<O, G: Encode> Learner<O, Vec<f32>, G> for Ddpg<O> {
         self.nets.values(self.encode(goals.iter().map(|goal| (s, *goal))))
     }
 
-    fn learn(&mut self, clips: &[Clip<O, Vec<f32>, G>], _: &mut Context) -> f32 {
+    fn learn(&mut self, clips: &[Clip<O, Vec<f32>, G>], _: &mut Context) -> Learned {
         if clips.is_empty() {
-            return 0.0;
+            return Learned::default();
         }
         let config = &self.config;
-        let before = self.encode(clips.iter().map(|clip| (&clip.observations[0], clip.goal)));
+        let before = self.encode(clips.iter().map(|clip| (clip.first(), clip.goal)));
         let after = self.encode(clips.iter().map(|clip| (clip.last(), clip.goal)));
-        let actions = clips.iter().flat_map(|clip| &clip.actions[0]).copied().collect();
+        let actions = clips.iter().flat_map(|clip| &clip.actions[clip.lead]).copied().collect();
         let next = self.nets.target_values(after);
         let targets = targets(clips.iter().map(|clip| clip.discounted(config.discount)), &next);
 
         let clip = config.gradient_clip;
         let critic = Step { rate: config.critic_rate, decay: config.critic_decay, clip };
         let actor = Step { rate: config.actor_rate, decay: 0.0, clip };
-        let loss = self.nets.learn(before, actions, targets, critic, actor, config.preactivation);
+        let errors = self.nets.learn(before, actions, targets, critic, actor, config.preactivation);
         self.nets.follow(config.tau);
         self.updates += 1;
-        loss
+        Learned::of(errors)
     }
 
     fn batch(&self) -> usize {
@@ -288,15 +288,11 @@ mod tests {
         let clips: Vec<_> = actions
             .iter()
             .zip(&rewards)
-            .map(|(action, reward)| Clip {
-                observations: &observations,
-                actions: action,
-                rewards: Rewards::Given(reward),
-                goal: None::<&()>,
-                terminal: true,
+            .map(|(action, reward)| {
+                Clip::new(&observations, action, Rewards::Given(reward), None::<&()>, true)
             })
             .collect();
-        learner.learn(&clips, &mut ctx)
+        learner.learn(&clips, &mut ctx).loss
     }
 
     fn greedy(learner: &Ddpg<Vec<f32>>) -> f32 {
@@ -310,8 +306,7 @@ mod tests {
         let observations = [vec![], vec![]];
         let returns = [false, true, false].map(|terminal| {
             let rewards = Rewards::Given(&[-1.0]);
-            let clip =
-                Clip { observations: &observations, actions: &[()], rewards, goal: None::<&()>, terminal };
+            let clip = Clip::new(&observations, &[()], rewards, None::<&()>, terminal);
             let _: &Vec<f32> = clip.last();
             clip.discounted(0.99)
         });
@@ -337,12 +332,9 @@ mod tests {
         // The same step is worth 1 to one goal and nothing to the other.
         let (observations, action, goals) =
             ([vec![0.2, -0.4], vec![0.2, -0.4]], [vec![0.1]], [Bit(1.0), Bit(-1.0)]);
-        let clip = |goal: usize| Clip {
-            observations: &observations,
-            actions: &action,
-            rewards: Rewards::Given(if goal == 0 { &[1.0] } else { &[0.0] }),
-            goal: Some(&goals[goal]),
-            terminal: true,
+        let clip = |goal: usize| {
+            let rewards = Rewards::Given(if goal == 0 { &[1.0] } else { &[0.0] });
+            Clip::new(&observations, &action, rewards, Some(&goals[goal]), true)
         };
         let clips: Vec<_> = (0..32).map(|i| clip(i % 2)).collect();
         (0..600).for_each(|i| _ = learner.learn(&clips, &mut Context::training(Seed(0), i)));
@@ -368,16 +360,13 @@ mod tests {
         let mut learner = learner(&DdpgConfig { discount: 0.5, tau: 0.05, ..small() });
         let (going, ending) = ([vec![0.2, -0.4], vec![0.2, -0.4]], [vec![-0.9, 0.8], vec![0.2, -0.4]]);
         let actions: Vec<[Vec<f32>; 1]> = (0..64).map(|i| [vec![i as f32 / 32.0 - 1.0]]).collect();
-        let clip = |i: usize| Clip {
-            observations: if i.is_multiple_of(2) { &going } else { &ending },
-            actions: &actions[i],
-            rewards: Rewards::Given(&[-1.0]),
-            goal: None::<&()>,
-            terminal: i % 2 == 1,
+        let clip = |i: usize| {
+            let states = if i.is_multiple_of(2) { &going } else { &ending };
+            Clip::new(states, &actions[i], Rewards::Given(&[-1.0]), None::<&()>, i % 2 == 1)
         };
         let clips: Vec<_> = (0..64).map(clip).collect();
         let loss =
-            (0..1500).map(|i| learner.learn(&clips, &mut Context::training(Seed(0), i))).last().unwrap();
+            (0..1500).map(|i| learner.learn(&clips, &mut Context::training(Seed(0), i)).loss).last().unwrap();
         let values = learner.nets.target_values(vec![0.2, -0.4, -0.9, 0.8]);
         assert!(loss < 1e-3, "{loss}");
         assert!((values[0] + 2.0).abs() < 0.1 && (values[1] + 1.0).abs() < 0.1, "{values:?}");

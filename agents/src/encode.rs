@@ -1,8 +1,10 @@
 //! From observations to rows of numbers that networks read.
 
 mod one_hot;
+mod patches;
 
 pub use one_hot::{OneHot, OneHotError};
+pub use patches::{PatchError, Patches};
 
 use inroads_envs::{Kind, Space};
 
@@ -13,6 +15,62 @@ pub trait Encoder<O> {
 
     /// Writes one row; `out` has [`width`](Self::width) elements.
     fn write(&self, observation: &O, out: &mut [f32]);
+
+    /// What the numbers of a row are to each other.
+    fn shape(&self) -> Shape {
+        Shape::Row(self.width())
+    }
+}
+
+/// What the numbers of a row are to each other: which network can make something of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// Nothing: so many numbers.
+    Row(usize),
+    /// Places that lie in rows and columns, each of so many numbers, row by row.
+    Grid {
+        /// Rows.
+        down: usize,
+        /// Places in a row.
+        across: usize,
+        /// Numbers a place.
+        width: usize,
+    },
+}
+
+impl Shape {
+    /// Numbers a row.
+    pub fn width(self) -> usize {
+        match self {
+            Self::Row(width) => width,
+            Self::Grid { down, across, width } => down * across * width,
+        }
+    }
+}
+
+/// Rows of many observations, one after the other.
+pub(crate) fn rows<'a, O: 'a>(
+    encoder: &(impl Encoder<O> + ?Sized),
+    seen: impl ExactSizeIterator<Item = &'a O>,
+) -> Vec<f32> {
+    let width = encoder.width();
+    let mut rows = vec![0.0; width * seen.len()];
+    rows.chunks_exact_mut(width.max(1)).zip(seen).for_each(|(row, s)| encoder.write(s, row));
+    rows
+}
+
+/// Rows of goals that are `width` wide, zeros where there is none.
+pub(crate) fn goal_rows<'a, G: Encode + 'a>(
+    width: usize,
+    goals: impl ExactSizeIterator<Item = Option<&'a G>>,
+) -> Vec<f32> {
+    let mut rows = vec![0.0; width * goals.len()];
+    for (row, goal) in rows.chunks_exact_mut(width.max(1)).zip(goals) {
+        if let Some(goal) = goal {
+            goal.write(row);
+        }
+    }
+    rows
 }
 
 /// A goal as numbers that a network reads beside an observation. "No goal", the task itself, is read as zeros

@@ -26,12 +26,16 @@ impl<O: Clone, A: Clone, L: Learner<O, A, ()>> Actor<O, A> for Flat<O, A, L> {
     }
 
     fn act(&mut self, s: &O, ctx: &mut Context) -> A {
+        let number = self.experience.latest();
+        if self.curious.begins_at(self.experience.length(number)) {
+            self.experience.note(number, &self.memory);
+        }
         self.curious.act(&mut self.memory, s, ctx)
     }
 
     fn observe(&mut self, t: &Transition<O, A>, ctx: &mut Context) {
         self.experience.push(t);
-        self.curious.step(&self.experience, ctx);
+        self.curious.step(self.experience.latest(), &self.experience, ctx);
     }
 }
 

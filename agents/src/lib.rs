@@ -19,6 +19,8 @@ pub mod nets;
 pub mod noise;
 pub mod novelty;
 mod pace;
+mod practice;
+pub mod replay;
 mod running;
 pub mod svm;
 pub mod tabular;
@@ -28,10 +30,12 @@ pub use curious::Curious;
 pub use encode::{Encode, Encoder};
 pub use episode::{Summary, episode};
 pub use evaluate::Evaluator;
-pub use experience::{Clip, Experience, Lesson, Replay};
+pub use experience::{Clip, Experience, Lesson};
 pub use flat::Flat;
 pub use novelty::Novelty;
 pub use pace::Pace;
+pub use practice::Practice;
+pub use replay::Replay;
 pub use running::Running;
 pub use tabular::{Key, TabularQ};
 
@@ -110,6 +114,36 @@ pub trait Agent<O, A>: Actor<O, A> + Checkpoint {
     fn updates(&self) -> Vec<(&'static str, u64)>;
 }
 
+/// One of several episodes that go on side by side: what one actor has in it.
+#[derive(Debug)]
+pub struct Lane<'a, O, G> {
+    /// What it remembers.
+    pub memory: &'a mut Memory,
+    /// What it sees.
+    pub s: &'a O,
+    /// Where it is going.
+    pub goal: Option<&'a G>,
+    /// Its random streams.
+    pub ctx: &'a mut Context,
+}
+
+/// What an update came to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Learned {
+    /// The mean loss before it.
+    pub loss: f32,
+    /// How wrong each clip was found: its priority, where there are priorities. Empty where nobody measured it.
+    pub errors: Vec<f32>,
+}
+
+impl Learned {
+    /// An update that descended on the mean square of these errors.
+    pub fn of(errors: Vec<f32>) -> Self {
+        let squares = errors.iter().map(|error| error.powi(2)).sum::<f32>();
+        Self { loss: squares / errors.len().max(1) as f32, errors }
+    }
+}
+
 /// Learns a policy from clips of experience: for the task, and for goals of type `G` if it reads any.
 ///
 /// `None` as a goal is the task itself. A learner without goals has `G = ()`.
@@ -121,8 +155,13 @@ pub trait Learner<O, A, G>: Checkpoint {
     /// [`Pay::ATTAINMENT`](experience::Pay::ATTAINMENT) that is the discounted probability of getting there.
     fn values(&self, memory: &Memory, s: &O, goals: &[Option<&G>]) -> Vec<f32>;
 
-    /// One minibatch update on these clips; the loss.
-    fn learn(&mut self, clips: &[Clip<O, A, G>], ctx: &mut Context) -> f32;
+    /// The actions at several states at once, one of each lane. Whoever computes on matrices computes them together.
+    fn act_all(&self, lanes: &mut [Lane<'_, O, G>]) -> Vec<A> {
+        lanes.iter_mut().map(|lane| self.act(lane.memory, lane.s, lane.goal, lane.ctx)).collect()
+    }
+
+    /// One minibatch update on these clips.
+    fn learn(&mut self, clips: &[Clip<O, A, G>], ctx: &mut Context) -> Learned;
 
     /// How many clips `learn` wants.
     fn batch(&self) -> usize;

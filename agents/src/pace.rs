@@ -1,7 +1,7 @@
 //! How often a learner learns.
 
 /// How much a learner learns from how much experience.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Pace {
     /// Minibatch updates a step of the environment; below one, an update every few steps.
     pub updates_per_step: f32,

@@ -7,7 +7,7 @@ use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
 pub use crate::draw::argmax;
-use crate::{Clip, Context, Learner, Memory, checkpoint, draw::greatest};
+use crate::{Clip, Context, Learned, Learner, Memory, checkpoint, draw::greatest};
 
 /// What can name a row of a table: observations, goals.
 pub trait Key {
@@ -164,17 +164,17 @@ impl<O: Key, G: Key> Learner<O, usize, G> for TabularQ {
         goals.iter().map(|goal| greatest(row(goal))).collect()
     }
 
-    fn learn(&mut self, clips: &[Clip<O, usize, G>], _: &mut Context) -> f32 {
-        let mut error = 0.0;
+    fn learn(&mut self, clips: &[Clip<O, usize, G>], _: &mut Context) -> Learned {
+        let mut errors = Vec::with_capacity(clips.len());
         for clip in clips {
             let goal = clip.goal.map(Key::key);
             let target = self.target(clip, goal);
             let row = self.values.entry((goal, clip.observations[0].key()));
             let value = &mut row.or_insert_with(|| self.blank.clone())[clip.actions[0]];
-            error += (target - *value).powi(2);
-            *value += self.config.rate * (target - *value);
+            errors.push(target - *value);
+            *value += self.config.rate * clip.weight * (target - *value);
         }
-        error / clips.len().max(1) as f32
+        Learned::of(errors)
     }
 
     fn batch(&self) -> usize {
@@ -193,13 +193,7 @@ mod tests {
         let mut learner = TabularQ::new(2, &TabularConfig { discount: 0.9, ..TabularConfig::default() });
         let observations = [vec![0.0_f32], vec![1.0], vec![2.0]];
         let (near, far) = (vec![2.0_f32], vec![9.0]);
-        let clip = |goal, rewards, terminal| Clip {
-            observations: &observations,
-            actions: &[1, 0],
-            rewards,
-            goal,
-            terminal,
-        };
+        let clip = |goal, rewards, terminal| Clip::new(&observations, &[1, 0], rewards, goal, terminal);
         let mut ctx = Context::training(Seed(0), 0);
         for _ in 0..60 {
             let attained = clip(Some(&near), Rewards::Subgoal(Pay::ATTAINMENT, true), true);
@@ -222,13 +216,8 @@ mod tests {
         let mut ctx = Context::training(Seed(0), 0);
         let mut learn = |from: usize, action: usize, pay: &[f32]| {
             let actions = [action, 1];
-            let clip: Clip<_, _, ()> = Clip {
-                observations: &observations[from..],
-                actions: &actions[..pay.len()],
-                rewards: Rewards::Given(pay),
-                goal: None,
-                terminal: true,
-            };
+            let (states, actions) = (&observations[from..], &actions[..pay.len()]);
+            let clip: Clip<_, _, ()> = Clip::new(states, actions, Rewards::Given(pay), None, true);
             learner.learn(&[clip], &mut ctx);
             learner.action_values(&observations[from], None::<&()>)[action]
         };

@@ -47,12 +47,9 @@ pub(crate) fn ddpg() -> Vec<Workload> {
     let update = Workload::repeated(UPDATE, move || {
         let (learner, ctx) = &mut *learner.borrow_mut();
         let clips: Vec<Clip<Vec<f32>, Vec<f32>, ()>> = (0..actions.len())
-            .map(|i| Clip {
-                observations: &observations[i..=i + 1],
-                actions: &actions[i..=i],
-                rewards: Rewards::Given(&[-1.0]),
-                goal: None,
-                terminal: false,
+            .map(|i| {
+                let (states, acts) = (&observations[i..=i + 1], &actions[i..=i]);
+                Clip::new(states, acts, Rewards::Given(&[-1.0]), None, false)
             })
             .collect();
         black_box(learner.learn(&clips, ctx));

@@ -191,7 +191,7 @@ where
 
     fn learn(&mut self, call: &Call<G>, all: &Experience<O, A>, ctx: &mut Context) {
         self.explorer.learn(call, all, ctx);
-        self.task.step(all, ctx);
+        self.task.step(all.latest(), all, ctx);
     }
 
     fn updates(&self) -> Vec<(&'static str, u64)> {

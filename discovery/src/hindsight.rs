@@ -76,7 +76,8 @@ mod tests {
     #[test]
     fn a_stretch_becomes_a_lesson_about_its_goal() {
         let observations = (0..8).map(|x| vec![x as f32]).collect();
-        let episode = Episode { observations, actions: vec![0; 7], rewards: vec![0.0; 7], end: None };
+        let (actions, rewards) = (vec![0; 7], vec![0.0; 7]);
+        let episode = Episode { observations, actions, rewards, ..Episode::default() };
         let goal = Features::of(&[4.0], [0], 0.5);
         let found = lessons(&goal, 9, &episode, 2..7);
         let lesson = |steps, attained| Lesson {

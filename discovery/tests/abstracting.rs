@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use inroads_agents::{Agent, Novelty};
 use inroads_agents::{
-    Bag, Checkpoint, Context, Curious, Experience, Pace, Replay, TabularQ, Transition, episode,
+    Bag, Checkpoint, Context, Curious, Experience, Pace, Practice, Replay, TabularQ, Transition, episode,
     experience::Pay,
     novelty::{Counts, FeatureCounts, FeatureCountsConfig},
     tabular::TabularConfig,
@@ -98,7 +98,8 @@ const PACE: Pace = Pace { updates_per_step: 2.0, warm_up: 0 };
 
 fn frontier(novelty: Box<dyn Novelty<Vec<f32>>>, naming: Box<dyn Name<Vec<f32>, Features>>) -> Outer {
     let tables = TabularConfig { discount: 0.95, ..TabularConfig::default() };
-    let curious = Curious::new(TabularQ::new(2, &tables), 10_000, PACE).with_novelty(novelty, 0.01);
+    let curious = Curious::new(TabularQ::new(2, &tables), Practice::new(Replay::new(10_000), PACE))
+        .with_novelty(novelty, 0.01);
     Novel::new(curious, naming, 1.0)
 }
 
@@ -112,10 +113,11 @@ fn counterfactual() -> Box<dyn Name<Vec<f32>, Features>> {
 
 fn agent(naming: Box<dyn Name<Vec<f32>, Features>>) -> Agents {
     let tables = TabularConfig { discount: 0.95, ..TabularConfig::default() };
-    let policy = Shared::new(TabularQ::new(2, &tables), Replay::new(10_000).paying(Pay::ATTAINMENT), PACE);
+    let replay = Replay::new(10_000).paying(Pay::ATTAINMENT);
+    let policy = Shared::new(TabularQ::new(2, &tables), Practice::new(replay, PACE));
     let config = ExplorerConfig { horizon: 12, explore_for: 8, ..ExplorerConfig::default() };
     let explorer = GraphExplorer::new(&config, Box::new(Direct), policy, frontier(counted(), naming));
-    let task = Curious::new(TabularQ::new(2, &tables), 10_000, PACE);
+    let task = Curious::new(TabularQ::new(2, &tables), Practice::new(Replay::new(10_000), PACE));
     let over = TabularOverSkills::new(0.5, Epsilon { start: 1.0, end: 0.1, decisions: 300 });
     Hierarchy::new(Abstracting::new(&AbstractingConfig::default(), explorer, task, over), 10_000)
 }

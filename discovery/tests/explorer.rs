@@ -7,8 +7,8 @@
 //! ```
 
 use inroads_agents::{
-    Actor, Agent, Bag, Checkpoint, Context, Curious, Pace, Replay, TabularQ, episode, experience::Pay,
-    novelty::Counts, tabular::TabularConfig,
+    Actor, Agent, Bag, Checkpoint, Context, Curious, Pace, Practice, Replay, TabularQ, episode,
+    experience::Pay, novelty::Counts, tabular::TabularConfig,
 };
 use inroads_discovery::{
     Features, GraphExplorer, Hierarchy, Shared, Skilled,
@@ -40,9 +40,9 @@ fn remembering(capacity: usize) -> ImDsg {
     let tables = |discount| TabularQ::new(4, &TabularConfig { discount, ..TabularConfig::default() });
     let pace = Pace { updates_per_step: 2.0, warm_up: 8 };
     let replay = Replay::new(capacity).paying(Pay::ATTAINMENT).spanning(3);
-    let policy = Shared::new(tables(0.95), replay, pace);
-    let curious = Curious::new(tables(0.9), capacity, pace)
-        .spanning(3)
+    let policy = Shared::new(tables(0.95), Practice::new(replay, pace));
+    let practice = Practice::new(Replay::new(capacity).spanning(3), pace);
+    let curious = Curious::new(tables(0.9), practice)
         .sober(tables(0.9))
         .with_novelty(Box::new(Counts::default()), 0.01)
         .centred(true);

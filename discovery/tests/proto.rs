@@ -5,7 +5,7 @@
 //! paid. So a switch is one step away from wherever it is off, and nobody controls the coin.
 
 use inroads_agents::{
-    Bag, Checkpoint, Context, Pace, Replay, TabularQ, encode::OneHot, episode, experience::Pay,
+    Bag, Checkpoint, Context, Pace, Practice, Replay, TabularQ, encode::OneHot, episode, experience::Pay,
     tabular::TabularConfig,
 };
 use inroads_discovery::{
@@ -86,7 +86,7 @@ fn agent(spec: &Spec, horizon: u32) -> Agent {
     let tables = TabularConfig { rate: 1.0, epsilon: 0.0, ..TabularConfig::default() };
     let replay = Replay::new(10_000).paying(Pay::ATTAINMENT);
     let pace = Pace { updates_per_step: 1.0, warm_up: 1 };
-    let policy = Shared::new(TabularQ::new(3, &tables), replay, pace);
+    let policy = Shared::new(TabularQ::new(3, &tables), Practice::new(replay, pace));
     let encoder = OneHot::new(&spec.observation, &[vec![0, 1]]).unwrap();
     let judge = LeastSquares::new(Plausibility::default(), encoder, 3);
     Hierarchy::new(ProtoGoalAgent::new(&goals, policy, judge), 10_000)

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use inroads_agents::{
-    Agent, Bag, Checkpoint, Context, Pace, Replay, TabularQ, classify::Nearest, encode::Select, episode,
-    experience::Pay, tabular::TabularConfig,
+    Agent, Bag, Checkpoint, Context, Pace, Practice, Replay, TabularQ, classify::Nearest, encode::Select,
+    episode, experience::Pay, tabular::TabularConfig,
 };
 use inroads_discovery::{
     ChainConfig, Chaining, Dual, Features, Hierarchy, Shared, Skilled,
@@ -30,7 +30,7 @@ fn agent(env: &impl Environment, actions: usize, config: &ChainConfig, capacity:
     let tables = TabularConfig { discount: 0.9, ..TabularConfig::default() };
     let replay = Replay::new(50_000).paying(Pay::ATTAINMENT);
     let pace = Pace { updates_per_step: 2.0, warm_up: 1 };
-    let policy = Shared::new(TabularQ::new(actions, &tables), replay, pace);
+    let policy = Shared::new(TabularQ::new(actions, &tables), Practice::new(replay, pace));
     let sets = Dual::new(Arc::new(Select::new(&place)), Nearest::new(0.6), Nearest::new(0.25), 100);
     let aim = States { features: place, tolerance: 0.25 };
     Hierarchy::new(Chaining::new(config, env.spec(), sets, policy, Scan).aiming(aim), capacity)

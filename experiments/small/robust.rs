@@ -5,8 +5,8 @@
 
 use inroads::{
     agents::{
-        Context, Pace, Replay, TabularQ, classify::Nearest, encode::Select, episode, experience::Pay,
-        tabular::TabularConfig,
+        Context, Pace, Practice, Replay, TabularQ, classify::Nearest, encode::Select, episode,
+        experience::Pay, tabular::TabularConfig,
     },
     config::Config,
     discovery::{
@@ -233,7 +233,8 @@ fn trained<T>(
             Box::new(Hierarchy::new(Chaining::new(&chain, &spec, sets, own(), over), capacity))
         }
         _ => {
-            let shared = Shared::new(learner, Replay::new(capacity).paying(Pay::ATTAINMENT), pace);
+            let shared =
+                Shared::new(learner, Practice::new(Replay::new(capacity).paying(Pay::ATTAINMENT), pace));
             Box::new(Hierarchy::new(Chaining::new(&chain, &spec, sets, shared, Scan).aiming(aim), capacity))
         }
     };

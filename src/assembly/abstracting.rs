@@ -1,7 +1,7 @@
 //! Abstract subgoals by counterfactuals (thesis chapter 9).
 
 use inroads_agents::{
-    Curious, Pace, Replay, TabularQ, experience::Pay, nets::Backend, tabular::TabularConfig,
+    Curious, Pace, Practice, Replay, TabularQ, experience::Pay, nets::Backend, tabular::TabularConfig,
 };
 use inroads_discovery::{
     Abstracting, AbstractingConfig, Features, GraphExplorer, Hierarchy, Shared,
@@ -101,17 +101,19 @@ fn abstract_subgoals(
     let (actions, capacity) = (choices(spec), config.memory.capacity);
     let pace: Pace = config.memory.pace();
     named("novelty", config.novelty.fits(spec))?;
-    let curious = Curious::new(TabularQ::new(actions, &config.frontier), capacity, pace)
+    let practice = || Practice::new(Replay::new(capacity), pace);
+    let curious = Curious::new(TabularQ::new(actions, &config.frontier), practice())
         .with_novelty(config.novelty.build(), config.novelty.weight)
         .centred(config.novelty.centred);
     let frontier =
         Novel::new(curious, config.naming.build(&config.counterfactuals), config.novelty.threshold);
     let replay = Replay::new(capacity).paying(Pay::ATTAINMENT);
-    let policy: Shared<_, Features> = Shared::new(TabularQ::new(actions, &config.policy), replay, pace);
+    let policy: Shared<_, Features> =
+        Shared::new(TabularQ::new(actions, &config.policy), Practice::new(replay, pace));
     let planner = |optimistic| config.planner.build(&config.abstract_mdp, optimistic);
     let explorer =
         GraphExplorer::new(&config.explorer, planner(true), policy, frontier).sober(planner(false));
-    let task = Curious::new(TabularQ::new(actions, &config.task), capacity, pace);
+    let task = Curious::new(TabularQ::new(actions, &config.task), practice());
     let over = TabularOverSkills::new(config.task.rate, config.over_options);
     let method = Abstracting::new(&config.behaviour, explorer, task, over);
     Ok(Box::new(Hierarchy::new(method, capacity)))

@@ -1,7 +1,7 @@
 //! Skill chaining (thesis chapter 3), and robust skill chaining (chapter 4).
 
 use inroads_agents::{
-    Replay,
+    Practice, Replay,
     ddpg::{Ddpg, DdpgConfig},
     dqn::{DqnConfig, GrowingDqn, Loss},
     experience::Pay,
@@ -232,7 +232,7 @@ fn tabular(
         return Ok(Box::new(Hierarchy::new(chain, capacity)));
     }
     let replay = Replay::new(capacity).paying(Pay::ATTAINMENT);
-    let policy = Shared::new(global, replay, config.memory.pace());
+    let policy = Shared::new(global, Practice::new(replay, config.memory.pace()));
     let aim = States { features: spec.place.clone(), tolerance: config.chain.tolerance };
     let chain = Chaining::new(&config.chain, spec, initiation, policy, over).aiming(aim);
     Ok(Box::new(Hierarchy::new(chain, capacity)))

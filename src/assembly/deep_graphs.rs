@@ -1,7 +1,7 @@
 //! Deep skill graphs (thesis chapter 6).
 
 use inroads_agents::{
-    Replay,
+    Practice, Replay,
     ddpg::{Ddpg, DdpgConfig},
     encode::Encode,
     nets::Backend,
@@ -142,7 +142,7 @@ fn dsg(
             let learner =
                 Ddpg::with_goals(scaled(spec), width, spec.action.len(), &config.policy, backend, &mut rng);
             let replay = Replay::new(config.memory.capacity);
-            whole(&plan, &config, ground, Shared::new(learner, replay, config.memory.pace()))
+            whole(&plan, &config, ground, Shared::new(learner, Practice::new(replay, config.memory.pace())))
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Flat baselines: one learner for the whole task.
 
 use inroads_agents::{
-    Curious, Flat,
+    Curious, Flat, Practice, Replay,
     ddpg::{Ddpg, DdpgConfig},
     nets::Backend,
     tabular::{TabularConfig, TabularQ},
@@ -130,7 +130,7 @@ fn ddpg(
     let mut rng = seed.stream("initialise", 0);
     let learner = Ddpg::new(scaled(spec), spec.action.len(), &config.policy, backend, &mut rng);
     let capacity = config.memory.capacity;
-    Ok(Box::new(Flat::new(Curious::new(learner, capacity, config.memory.pace()), capacity)))
+    Ok(Box::new(Flat::new(Curious::new(learner, config.memory.practice()), capacity)))
 }
 
 fn q_learning(
@@ -142,7 +142,7 @@ fn q_learning(
     let config: FlatTabularConfig = section(settings.clone(), "q-learning")?;
     let learner = TabularQ::new(choices(spec), &config.policy);
     let capacity = config.memory.capacity;
-    Ok(Box::new(Flat::new(Curious::new(learner, capacity, config.memory.pace()), capacity)))
+    Ok(Box::new(Flat::new(Curious::new(learner, config.memory.practice()), capacity)))
 }
 
 fn counts_q(
@@ -155,9 +155,9 @@ fn counts_q(
     named("novelty", config.novelty.fits(spec))?;
     let learner = TabularQ::new(choices(spec), &config.policy);
     let capacity = config.memory.capacity;
-    let curious = Curious::new(learner.clone(), capacity, config.memory.pace())
+    let replay = Replay::new(capacity).spanning(config.returns);
+    let curious = Curious::new(learner.clone(), Practice::new(replay, config.memory.pace()))
         .sober(learner)
-        .spanning(config.returns)
         .with_novelty(config.novelty.build(), config.novelty.weight)
         .centred(config.novelty.centred);
     Ok(Box::new(Flat::new(curious, capacity)))

@@ -1,7 +1,7 @@
 //! Skill graphs on tables (thesis chapter 7 in small).
 
 use inroads_agents::{
-    Curious, Pace, Replay,
+    Curious, Pace, Practice, Replay,
     experience::Pay,
     nets::Backend,
     tabular::{TabularConfig, TabularQ},
@@ -151,9 +151,9 @@ pub fn im_dsg(spec: &Spec, config: &ImDsgConfig) -> ImDsg {
     let ImDsgConfig { skills, frontier, novelty, .. } = config;
     let table = |learner: &LearnerConfig| TabularQ::new(choices(spec), &learner.table);
     let replay = Replay::new(skills.replay).paying(Pay::ATTAINMENT).spanning(skills.returns);
-    let policy = Shared::new(table(skills), replay, skills.pace());
-    let curious = Curious::new(table(frontier), frontier.replay, frontier.pace())
-        .spanning(frontier.returns)
+    let policy = Shared::new(table(skills), Practice::new(replay, skills.pace()));
+    let practice = Practice::new(Replay::new(frontier.replay).spanning(frontier.returns), frontier.pace());
+    let curious = Curious::new(table(frontier), practice)
         .sober(table(frontier))
         .with_novelty(novelty.build(), novelty.weight)
         .centred(novelty.centred);

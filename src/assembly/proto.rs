@@ -1,7 +1,7 @@
 //! Proto-goal reinforcement learning (thesis chapter 8).
 
 use inroads_agents::{
-    Replay, TabularQ, encode::OneHot, experience::Pay, nets::Backend, tabular::TabularConfig,
+    Practice, Replay, TabularQ, encode::OneHot, experience::Pay, nets::Backend, tabular::TabularConfig,
 };
 use inroads_discovery::{
     Hierarchy, Shared,
@@ -111,7 +111,7 @@ fn proto_goals(
     let config: ProtoGoalsConfig = section(settings.clone(), "proto-goals")?;
     let learner = TabularQ::new(choices(spec), &config.policy);
     let replay = Replay::new(config.memory.capacity).paying(Pay::ATTAINMENT).spanning(config.returns.steps);
-    let policy = Shared::new(learner, replay, config.memory.pace());
+    let policy = Shared::new(learner, Practice::new(replay, config.memory.pace()));
     let encoder = OneHot::around(spec, config.features.joint)
         .map_err(|why| ConfigError::Impossible { table: "features".into(), why: why.to_string() })?;
     let judge = LeastSquares::new(config.plausibility, encoder, choices(spec));

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use inroads_agents::{
-    Encoder, Pace,
+    Encoder, Pace, Practice, Replay,
     ddpg::DdpgConfig,
     encode::{Scaled, Select},
     noise::NoiseConfig,
@@ -36,6 +36,11 @@ impl Default for MemoryConfig {
 impl MemoryConfig {
     pub(super) fn pace(&self) -> Pace {
         Pace { updates_per_step: self.updates_per_step, warm_up: self.warm_up }
+    }
+
+    /// Practice on single steps, all drawn with the same probability.
+    pub(super) fn practice(&self) -> Practice {
+        Practice::new(Replay::new(self.capacity), self.pace())
     }
 
     pub(super) fn check(&self) -> Result<(), String> {

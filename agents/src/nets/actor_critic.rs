@@ -77,8 +77,8 @@ impl ActorCritic {
     }
 
     /// One step of the critic towards these values of these actions, and one of the actor uphill on the
-    /// critic, which also pays `preactivation` times the mean square of what enters its tanh; the critic's mean
-    /// squared error before.
+    /// critic, which also pays `preactivation` times the mean square of what enters its tanh; the critic's
+    /// errors before.
     pub(crate) fn learn(
         &mut self,
         states: Vec<f32>,
@@ -87,7 +87,7 @@ impl ActorCritic {
         critic_step: Step,
         actor_step: Step,
         preactivation: f32,
-    ) -> f32 {
+    ) -> Vec<f32> {
         let states = rows(states, self.inputs, &self.device);
         let actions = rows(actions, self.actions, &self.device);
         let targets = rows(targets, 1, &self.device);
@@ -95,10 +95,10 @@ impl ActorCritic {
         let critic = self.critic.clone().train();
         let tracked = |t: &Tensor<2>| t.clone().autodiff();
         let error = critic.forward(tracked(&states), tracked(&actions)) - tracked(&targets);
+        let errors = floats(error.clone().inner());
         let loss = (error.clone() * error).mean();
         let grads = GradientsParams::from_grads(loss.backward(), &critic);
-        let critic_loss = loss.into_scalar::<f32>();
-        drop(critic); // so that the parameters are changed in place
+        drop((loss, critic)); // so that the parameters are changed in place
         self.critic_adam.step(critic_step, &mut self.critic, grads);
 
         // The critic is frozen here: only the actor's gradient is computed.
@@ -110,7 +110,7 @@ impl ActorCritic {
         let grads = GradientsParams::from_grads(loss.backward(), &actor);
         drop(actor);
         self.actor_adam.step(actor_step, &mut self.actor, grads);
-        critic_loss
+        errors
     }
 
     /// The targets follow by one step of size `tau`.

@@ -9,17 +9,20 @@
 mod actor_critic;
 mod adam;
 mod device;
+mod dueling;
 mod init;
 mod mlp;
 mod probability;
 mod q_network;
 mod target;
+mod torso;
 
 pub(crate) use actor_critic::{ActorCritic, Shape};
 pub(crate) use adam::Step;
 pub use device::{Backend, NoBackend};
 pub(crate) use probability::ProbabilityNet;
 pub(crate) use q_network::QNetwork;
+pub use torso::TorsoConfig;
 
 use std::mem::take;
 

@@ -9,7 +9,11 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::Novelty;
-use crate::{Context, checkpoint, tabular::thousandths};
+use crate::{
+    Context, checkpoint,
+    experience::{Moment, Seen},
+    tabular::thousandths,
+};
 
 /// Settings of [`FeatureCounts`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -107,7 +111,16 @@ impl Novelty<Vec<f32>> for FeatureCounts {
         1.0 / (fewest.max(1) as f32).sqrt()
     }
 
-    fn visit(&mut self, s: &Vec<f32>, _: &mut Context) {
+    fn visit(&mut self, at: Moment, all: &dyn Seen<Vec<f32>>, _: &mut Context) {
+        if let Some(s) = all.seen(at) {
+            self.count(s);
+        }
+    }
+}
+
+impl FeatureCounts {
+    /// `s` was visited.
+    pub fn count(&mut self, s: &[f32]) {
         self.visits += 1;
         let values = values(s);
         for (j, second) in values.iter().enumerate() {
@@ -127,13 +140,11 @@ impl Novelty<Vec<f32>> for FeatureCounts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use inroads_envs::Seed;
 
     fn counts(config: &FeatureCountsConfig, visits: &[(u64, [f32; 2])]) -> FeatureCounts {
         let mut counts = FeatureCounts::new(config);
-        let mut ctx = Context::training(Seed(0), 0);
         for (times, s) in visits {
-            (0..*times).for_each(|_| counts.visit(&s.to_vec(), &mut ctx));
+            (0..*times).for_each(|_| counts.count(s));
         }
         counts
     }

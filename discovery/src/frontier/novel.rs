@@ -70,7 +70,7 @@ impl<O, A, G, L: Learner<O, A, ()>, N: Name<O, G>> Frontier<O, A, G> for Novel<O
     }
 
     fn step(&mut self, all: &Experience<O, A>, ctx: &mut Context) {
-        self.curious.step(all, ctx);
+        self.curious.step(all.latest(), all, ctx);
     }
 
     fn updates(&self) -> u64 {

@@ -127,15 +127,14 @@ mod tests {
     /// The features that are kept, where a state was visited as often as `visits` says.
     fn kept(resets: Resets, mut novelty: impl Novelty<Vec<f32>>, states: &[[f32; 3]; 2]) -> Option<Vec<u32>> {
         // Features 0 and 1 take on values 0 and 1 freely; 2 is noise.
-        let mut ctx = Context::training(Seed(0), 0);
-        for step in 0..400 {
-            let bits = [step & 1, step >> 1 & 1, step >> 2 & 3].map(|bit| bit as f32);
-            novelty.visit(&bits.to_vec(), &mut ctx);
-        }
+        let bits = |step: u32| [step & 1, step >> 1 & 1, step >> 2 & 3].map(|bit| bit as f32).to_vec();
+        let mut seen: Vec<_> = (0..400).map(bits).collect();
         // And now and then both are 2, or one of them is 3, where the other was 0.
         for (a, b) in [(2.0, 2.0), (3.0, 0.0), (0.0, 3.0)] {
-            (0..20).for_each(|step| novelty.visit(&vec![a, b, (step % 4) as f32], &mut ctx));
+            seen.extend((0..20).map(|step| vec![a, b, (step % 4) as f32]));
         }
+        let mut ctx = Context::training(Seed(0), 0);
+        (0..seen.len() as u32).for_each(|step| novelty.visit((0, step), &seen, &mut ctx));
         let config = CounterfactualConfig { resets, ..Default::default() };
         let [novel, boring] = states.map(|s| s.to_vec());
         let goal = Counterfactual::new(&config).name(&novel, &boring, &|s| novelty.bonus(s));

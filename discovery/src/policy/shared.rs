@@ -1,6 +1,6 @@
 //! One goal-conditioned policy for all skills (4.1.2, 7.2.2.5): each reads its own subgoal.
 
-use inroads_agents::{Clip, Context, Experience, Learner, Lesson, Memory, Pace, Replay, checkpoint};
+use inroads_agents::{Context, Experience, Learner, Lesson, Memory, Practice, checkpoint};
 use serde::{Serialize, de::DeserializeOwned};
 
 use super::SkillPolicy;
@@ -9,23 +9,20 @@ use crate::{Call, SkillId};
 /// One learner for all skills, which tells them apart by their goals.
 pub struct Shared<L, G> {
     learner: L,
-    replay: Replay<G>,
-    pace: Pace,
-    steps: u64,
-    updates: u64,
+    practice: Practice<G>,
 }
 
 checkpoint!(
     [L, G] Shared<L, G>;
-    plain: replay, steps, updates;
+    plain: practice;
     parts: learner;
     where L: inroads_agents::Checkpoint, G: Serialize + DeserializeOwned
 );
 
 impl<L, G> Shared<L, G> {
-    /// A family that learns from what `replay` draws, which is empty.
-    pub fn new(learner: L, replay: Replay<G>, pace: Pace) -> Self {
-        Self { learner, replay, pace, steps: 0, updates: 0 }
+    /// A family that learns by this practice.
+    pub fn new(learner: L, practice: Practice<G>) -> Self {
+        Self { learner, practice }
     }
 
     /// What learns.
@@ -51,31 +48,20 @@ where
     }
 
     fn lesson(&mut self, _: SkillId, lesson: Lesson<G>) {
-        self.replay.push(lesson);
+        self.practice.push(lesson);
     }
 
     fn practise(&mut self, _: SkillId, updates: u64, all: &Experience<O, A>, ctx: &mut Context) {
-        self.replay.forget_before(all.first());
-        let batch = self.learner.batch();
-        if updates == 0 || self.replay.len() < batch {
-            return;
-        }
-        let mut clips: Vec<Clip<O, A, G>> = Vec::with_capacity(batch);
-        for _ in 0..updates {
-            self.replay.sample(all, batch, &mut ctx.learning, &mut clips);
-            self.learner.learn(&clips, ctx);
-            self.updates += 1;
-        }
+        let Self { learner, practice } = self;
+        practice.practise(updates, learner.batch(), all, ctx, |clips, ctx| learner.learn(clips, ctx));
     }
 
-    fn step(&mut self, k: SkillId, all: &Experience<O, A>, ctx: &mut Context) {
-        self.steps += 1;
-        if self.replay.len() >= self.pace.warm_up {
-            self.practise(k, self.pace.due(self.steps), all, ctx);
-        }
+    fn step(&mut self, _: SkillId, all: &Experience<O, A>, ctx: &mut Context) {
+        let Self { learner, practice } = self;
+        practice.step(learner.batch(), all, ctx, |clips, ctx| learner.learn(clips, ctx));
     }
 
     fn updates(&self) -> u64 {
-        self.updates
+        self.practice.updates()
     }
 }

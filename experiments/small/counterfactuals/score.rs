@@ -56,7 +56,7 @@ impl Method {
             Self::States => (Box::new(Counts::default()), Resets::Single),
         };
         let mut ctx = Context::training(Seed(0), 0);
-        event.before.iter().for_each(|s| novelty.visit(s, &mut ctx));
+        (0..event.before.len() as u32).for_each(|step| novelty.visit((0, step), &event.before, &mut ctx));
         let by = |a: &&Vec<f32>, b: &&Vec<f32>| novelty.bonus(a).total_cmp(&novelty.bonus(b));
         let (newest, oldest) = (event.path.iter().max_by(by), event.path.iter().min_by(by));
         let config = CounterfactualConfig { resets, ..CounterfactualConfig::default() };

@@ -2,7 +2,7 @@
 //! update, an update a step, a discount of 0.97, all of their steps in the replay.
 
 use inroads::{
-    agents::{Curious, Flat, Pace, TabularQ, novelty::Counts, tabular::TabularConfig},
+    agents::{Curious, Flat, Pace, Practice, Replay, TabularQ, novelty::Counts, tabular::TabularConfig},
     assembly::{
         graphs::{ImDsgConfig, im_dsg},
         parts::PlannerKind,
@@ -68,7 +68,7 @@ pub(crate) fn flat(spec: &Spec, simple: &Simple) -> Boxed {
     let config = TabularConfig { rate, epsilon, initial, discount: 0.97, ..TabularConfig::default() };
     let pace = Pace { updates_per_step: 1.0, warm_up: config.batch };
     let table = TabularQ::new(choices, &config);
-    let curious = Curious::new(table.clone(), CAPACITY, pace).spanning(5);
+    let curious = Curious::new(table.clone(), Practice::new(Replay::new(CAPACITY).spanning(5), pace));
     let curious = if weight > 0.0 {
         curious.with_novelty(Box::new(Counts::default()), weight).centred(centred).sober(table)
     } else {

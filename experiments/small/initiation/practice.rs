@@ -58,7 +58,8 @@ impl Practice {
         let config = TabularConfig { rate: 0.2, discount: 0.95, batch: 4, ..TabularConfig::default() };
         let pace = Pace { updates_per_step: 0.5, warm_up: 1 };
         let replay = Replay::new(20_000).paying(Pay::ATTAINMENT);
-        Self { sets, policy: Shared::new(TabularQ::new(4, &config), replay, pace), whole_failures }
+        let practice = inroads::agents::Practice::new(replay, pace);
+        Self { sets, policy: Shared::new(TabularQ::new(4, &config), practice), whole_failures }
     }
 
     fn call(s: &State) -> Call<()> {

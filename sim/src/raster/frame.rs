@@ -7,7 +7,7 @@ use image::RgbImage;
 /// A picture: rows from the top, in each row pixels from the left, in each pixel its channels.
 ///
 /// Also what a domain writes into: [`Frame::shape`] makes a used buffer fit without allocating again.
-#[derive(Clone, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 pub struct Frame {
     width: u32,
     height: u32,

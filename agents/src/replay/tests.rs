@@ -1,5 +1,7 @@
 use super::*;
+use crate::Transition;
 use inroads_envs::Seed;
+use std::ops::Range;
 
 /// Three episodes of the given lengths whose observations count up; the second is truncated.
 fn experience(capacity: usize) -> Experience<f32, u8> {
@@ -136,4 +138,80 @@ fn lessons_about_the_past_are_forgotten_wherever_they_lie() {
     replay.push(task(3, 0..1));
     replay.forget_before(4);
     assert!(replay.is_empty());
+}
+
+/// One episode of seven steps, whose memory is noted every second step.
+fn remembered() -> Experience<f32, u8> {
+    let mut all = Experience::new(100);
+    let number = all.begin(&0.0);
+    for step in 0..7_u8 {
+        if step.is_multiple_of(2) {
+            all.note(number, &[f32::from(step)]);
+        }
+        let (before, after) = (f32::from(step), f32::from(step + 1));
+        let end = (step == 6).then_some(End::Terminated);
+        all.push(&Transition { before: &before, action: &step, reward: before, after: &after, end });
+    }
+    all
+}
+
+#[test]
+fn steps_of_the_task_go_on_into_those_that_came_later() {
+    let all = remembered();
+    let mut replay: Replay = Replay::new(100).spanning(3);
+    (0..7).for_each(|step| replay.push(Lesson::task(0, step)));
+    let clip = |step| replay.clip(&replay.lessons[step as usize], step, &all);
+    assert_eq!((clip(0).actions, clip(0).discounted(1.0)), (&[0, 1, 2][..], (3.0, 1.0)));
+    // The last steps' returns are shorter, and none is left out.
+    assert_eq!((clip(5).actions, clip(5).discounted(1.0)), (&[5, 6][..], (11.0, 0.0)));
+    assert_eq!((clip(6).actions, clip(4).terminal, clip(3).terminal), (&[6][..], true, false));
+}
+
+#[test]
+fn sequences_begin_where_memories_were_noted_and_tile_a_lesson() {
+    let all = remembered();
+    let mut replay: Replay = Replay::new(100).paying(Pay::ATTAINMENT).sequences(4, 2, 0);
+    replay.push(Lesson { aim: Aim::Subgoal { attained: true }, ..task(0, 1..6) });
+    assert_eq!(replay.len(), 6);
+    let clip = |step| replay.clip(&replay.lessons[0], step, &all);
+    let seen: Vec<_> = (0..3).map(|i| replay.cut.start(&(1..6), i)).collect();
+    assert_eq!(seen, [1, 2, 4]);
+    // The first begins between two notes: the step before leads it in.
+    let first = clip(1);
+    assert_eq!(
+        (first.observations, first.lead, first.memory),
+        (&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0][..], 1, &[0.0][..])
+    );
+    assert_eq!((first.len(), *first.first(), first.at, first.previous), (4, 1.0, (0, 0), None));
+    let last = clip(4);
+    assert_eq!((last.observations, last.lead, last.memory), (&[4.0, 5.0, 6.0][..], 0, &[4.0][..]));
+    assert_eq!((last.previous, last.terminal, last.discounted(0.5)), (Some(&3), true, (0.5, 0.0)));
+    let burning = replay.clone().sequences(4, 2, 3);
+    let burnt = burning.clip(&burning.lessons[0], 4, &all);
+    assert_eq!((burnt.at, burnt.lead, burnt.reward(1)), ((0, 0), 4, 1.0));
+}
+
+#[test]
+fn what_surprises_is_drawn_again_and_priorities_move_with_their_lessons() {
+    let all = experience(100);
+    let mut replay = Replay::new(100).prioritised(PriorityConfig::default());
+    // Late lessons about the first episode stand behind those of the second.
+    for (episode, steps) in [(0, 0..2), (1, 0..3), (0, 0..1), (2, 0..2)] {
+        replay.push(task(episode, steps));
+    }
+    let (mut clips, mut rng) = (Vec::new(), Seed(0).stream("test", 0));
+    let numbers = replay.sample(&all, 64, &mut rng, &mut clips);
+    let errors: Vec<_> =
+        clips.iter().map(|clip| if clip.observations[0] == 4.0 { 1.0 } else { 0.0 }).collect();
+    assert!(clips.iter().all(|clip| clip.weight == 1.0), "what nobody judged yet counts alike");
+    drop(clips);
+    replay.revise(&numbers, &errors);
+    replay.forget_before(1);
+    assert_eq!(replay.len(), 5);
+    let mut clips = Vec::new();
+    replay.sample(&all, 600, &mut rng, &mut clips);
+    let often = clips.iter().filter(|clip| clip.observations[0] == 4.0).count();
+    // √1.01 against four times √0.01.
+    assert!((often as f32 - 600.0 * 1.005 / 1.405).abs() < 20.0, "{often}");
+    assert!(clips.iter().all(|clip| (clip.weight == 1.0) == (clip.observations[0] != 4.0)));
 }
