@@ -269,7 +269,7 @@ mod tests {
     }
 
     fn learner(config: &DdpgConfig) -> Ddpg<Vec<f32>> {
-        Ddpg::new(Arc::new(Row), 1, config, Backend::Flex, &mut Seed(3).stream("weights", 0))
+        Ddpg::new(Arc::new(Row), 1, config, Backend::of_tests(), &mut Seed(3).stream("weights", 0))
     }
 
     fn saved(learner: &Ddpg<Vec<f32>>) -> Bag {
@@ -328,7 +328,7 @@ mod tests {
         }
         let mut rng = Seed(3).stream("weights", 0);
         let mut learner: Ddpg<Vec<f32>> =
-            Ddpg::with_goals(Arc::new(Row), 1, 1, &small(), Backend::Flex, &mut rng);
+            Ddpg::with_goals(Arc::new(Row), 1, 1, &small(), Backend::of_tests(), &mut rng);
         // The same step is worth 1 to one goal and nothing to the other.
         let (observations, action, goals) =
             ([vec![0.2, -0.4], vec![0.2, -0.4]], [vec![0.1]], [Bit(1.0), Bit(-1.0)]);
@@ -383,7 +383,7 @@ mod tests {
         assert_eq!(one.updates(), 50);
 
         let other_weights = &mut Seed(99).stream("weights", 0);
-        let mut resumed = Ddpg::new(Arc::new(Row), 1, &small(), Backend::Flex, other_weights);
+        let mut resumed = Ddpg::new(Arc::new(Row), 1, &small(), Backend::of_tests(), other_weights);
         assert!(saved(&resumed) != saved(&one));
         resumed.load(&saved(&one)).unwrap();
         for index in 50..60 {
@@ -428,7 +428,7 @@ mod tests {
     #[test]
     fn both_backends_learn_alike() {
         let weights = || Seed(3).stream("weights", 0);
-        let mut flex = learner(&small());
+        let mut flex = Ddpg::new(Arc::new(Row), 1, &small(), Backend::Flex, &mut weights());
         let mut ndarray = Ddpg::new(Arc::new(Row), 1, &small(), Backend::NdArray, &mut weights());
         for index in 0..20 {
             let (a, b) = (bandit(&mut flex, index), bandit(&mut ndarray, index));

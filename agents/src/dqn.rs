@@ -221,7 +221,7 @@ mod tests {
     use rand::RngExt;
 
     fn learner(outputs: usize, config: &DqnConfig) -> GrowingDqn {
-        GrowingDqn::new(3, outputs, config, Backend::Flex, &mut Seed(5).stream("weights", 0))
+        GrowingDqn::new(3, outputs, config, Backend::of_tests(), &mut Seed(5).stream("weights", 0))
     }
 
     fn small() -> DqnConfig {

@@ -17,6 +17,7 @@ mod initiation;
 mod nonstationary;
 mod robust;
 mod sparse_taxi;
+#[path = "../support.rs"]
 mod support;
 
 use std::{path::PathBuf, process::ExitCode};

@@ -69,7 +69,14 @@ fn network(states: f32) -> Sigmoid<State, usize> {
     let space = Space::Box([Dimension::linear("state", "", 0.0, states)].into());
     let config = SigmoidConfig { hidden: vec![32, 32], rate: 3e-3, tau: 0.05, ..SigmoidConfig::default() };
     let mut rng = Seed(4).stream("weights", 0);
-    Sigmoid::new(Arc::new(Scaled::new(&space)), Arc::new(OneHot(2)), 0, &config, Backend::Flex, &mut rng)
+    Sigmoid::new(
+        Arc::new(Scaled::new(&space)),
+        Arc::new(OneHot(2)),
+        0,
+        &config,
+        Backend::of_tests(),
+        &mut rng,
+    )
 }
 
 /// Action 1 goes right with probability `right` and left else, until 0 (ruin) or `n` (success).

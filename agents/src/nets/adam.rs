@@ -148,7 +148,7 @@ mod tests {
 
     #[test]
     fn it_steps_as_the_paper_says() {
-        let device = Backend::Flex.plain();
+        let device = Backend::of_tests().plain();
         let (mut one, mut adam) = (module(&device), Adam::default());
         let step = Step { rate: 0.01, decay: 0.1, clip: 0.0 };
         let (mut p, mut m, mut v) = ([1.0_f64, 2.0], [0.0; 2], [0.0; 2]);
@@ -171,7 +171,7 @@ mod tests {
 
     #[test]
     fn the_clip_is_one_norm_for_all_and_what_has_no_gradient_stays() {
-        let device = Backend::Flex.plain();
+        let device = Backend::of_tests().plain();
         let (mut one, mut adam) = (module(&device), Adam::default());
         let given = gradients(&one, 3.0, -4.0, &device);
         adam.step(Step { rate: 0.01, decay: 0.0, clip: 1.0 }, &mut one, given);

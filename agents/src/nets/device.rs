@@ -38,6 +38,13 @@ impl Backend {
         }
     }
 
+    /// The backend that the learners' tests run on: that of the variable `INROADS_BACKEND`, the default without it.
+    #[cfg(test)]
+    pub(crate) fn of_tests() -> Self {
+        std::env::var("INROADS_BACKEND")
+            .map_or_else(|_| Self::default(), |name| name.parse().expect("a backend"))
+    }
+
     /// The device that computes without recording a graph.
     pub(crate) fn plain(self) -> Device {
         keep_freed_memory();

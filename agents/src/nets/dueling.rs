@@ -69,7 +69,7 @@ mod tests {
 
     #[test]
     fn a_constant_more_of_every_advantage_changes_no_value() {
-        let device = Backend::Flex.plain();
+        let device = Backend::of_tests().plain();
         let shape = HeadShape { features: 3, goal: 2, hidden: 8, choices: 4 };
         let mut head = Dueling::new(shape, &device, &mut Seed(2).stream("weights", 0));
         let values = |head: &Dueling| {

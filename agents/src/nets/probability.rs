@@ -89,7 +89,7 @@ mod tests {
     use inroads_envs::Seed;
 
     fn net(seed: u64) -> ProbabilityNet {
-        ProbabilityNet::new(2, &[8], Backend::Flex, &mut Seed(seed).stream("weights", 0))
+        ProbabilityNet::new(2, &[8], Backend::of_tests(), &mut Seed(seed).stream("weights", 0))
     }
 
     #[test]

@@ -52,7 +52,7 @@ mod tests {
 
     #[test]
     fn it_goes_by_tau_of_the_way_and_leaves_the_online_network_alone() {
-        let device = Backend::Flex.plain();
+        let device = Backend::of_tests().plain();
         let mut target = Mlp::new(3, &[5, 4], 2, 0.1, &device, &mut Seed(0).stream("weights", 0));
         let online = target.clone().map(&mut Add(1.0));
         let (before, goal) = (values(&target), values(&online));

@@ -136,13 +136,13 @@ mod tests {
     use inroads_envs::Seed;
 
     fn torso(shape: Shape, config: &TorsoConfig) -> Torso {
-        Torso::new(shape, config, &Backend::Flex.plain(), &mut Seed(1).stream("weights", 0))
+        Torso::new(shape, config, &Backend::of_tests().plain(), &mut Seed(1).stream("weights", 0))
     }
 
     #[test]
     fn four_neighbours_become_one_place() {
         // 3 × 3 places of one number, 1 to 9.
-        let device = Backend::Flex.plain();
+        let device = Backend::of_tests().plain();
         let x = rows((1..=9).map(|i| i as f32).collect(), 1, &device);
         let mut places = [3, 3];
         let joined = merged(x, 1, &mut places);
@@ -157,7 +157,7 @@ mod tests {
         for shape in [Shape::Row(24), Shape::Grid { down: 3, across: 2, width: 4 }] {
             let torso = torso(shape, &TorsoConfig { hidden: vec![16, 5], ..TorsoConfig::default() });
             let row = |i: usize| (0..24).map(|j| ((i * 24 + j) as f32).sin()).collect::<Vec<_>>();
-            let device = Backend::Flex.plain();
+            let device = Backend::of_tests().plain();
             let all = floats(torso.forward(rows([row(0), row(1), row(2)].concat(), 24, &device)));
             for i in 0..3 {
                 let one = floats(torso.forward(rows(row(i), 24, &device)));
