@@ -123,9 +123,11 @@ impl CountsConfig {
     fn whole(&self) -> Result<(), String> {
         match self.novelty.counts {
             Counted::States => Ok(()),
-            Counted::Features => Err("pictures have no features to be counted; set novelty.counts = \"states\", or see \
+            Counted::Features => {
+                Err("pictures have no features to be counted; set novelty.counts = \"states\", or see \
                                       the world as symbols: --see symbols"
-                .into()),
+                    .into())
+            }
         }
     }
 }

@@ -185,12 +185,7 @@ pub fn movie(run: &Run, watched: &Watched, path: &Path) -> Result<(), RunError> 
         .acted()
         .enumerate()
         .filter(|(step, _)| step % every == 0 || step + 1 == watched.path.len())
-        .map(|(step, (s, skill))| Pose {
-            step,
-            at: [s[0], s[1]],
-            heading: view.picture.heading(s),
-            skill,
-        })
+        .map(|(step, (s, skill))| Pose { step, at: [s[0], s[1]], heading: view.picture.heading(s), skill })
         .collect();
     figures::movie(path, &view.map, &poses)?;
     Ok(())
