@@ -7,14 +7,14 @@ use std::{fs, path::Path, str::FromStr};
 
 use inroads_agents::nets::Backend;
 use inroads_envs::{
-    registry::{MakeError, Options, nearest},
+    registry::{AnyEnvironment, MakeError, Options, nearest},
     world::WordError,
 };
 use inroads_sim::rigid::Model;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use toml::{Table, Value};
 
-use crate::assembly;
+use crate::{assembly, session};
 
 /// What is wrong with a configuration.
 #[derive(Debug, thiserror::Error)]
@@ -132,6 +132,10 @@ pub struct Config {
     pub agent: Table,
 }
 
+/// Steps that an agent remembers at most, unless it is told otherwise, where it sees pictures: of 40 by 40 pixels in
+/// colour (DoorKey-5x5) that is half a gigabyte, of 84 by 84 in grey 0.7.
+const PICTURES: i64 = 100_000;
+
 impl World {
     /// Asks the registry with what is set here.
     ///
@@ -186,6 +190,20 @@ impl Config {
             },
         };
         Ok(Self { settings, agent: (entry.defaults)() })
+    }
+
+    /// The same with a memory that pictures fit in, where the environment, as it is set, is seen as pictures.
+    ///
+    /// # Errors
+    /// [`ConfigError`] when there is no such environment.
+    pub fn fitted(mut self) -> Result<Self, ConfigError> {
+        if let AnyEnvironment::Frames(_) = session::environment(&self.settings)?
+            && let Some(Value::Table(memory)) = self.agent.get_mut("memory")
+            && let Some(Value::Integer(capacity)) = memory.get_mut("capacity")
+        {
+            *capacity = (*capacity).min(PICTURES);
+        }
+        Ok(self)
     }
 
     /// The same with a file's values in the place of its own.

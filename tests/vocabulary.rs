@@ -85,3 +85,14 @@ fn an_unknown_part_is_answered_with_those_that_there_are() {
     let error = config.with_assignment("initiation.sets=convex").unwrap_err().to_string();
     assert!(error.contains("convex") && error.contains("weighted"), "{error}");
 }
+
+#[test]
+fn tables_learn_from_pictures_as_from_symbols() {
+    for agent in ["q-learning", "counts-q"] {
+        for see in ["rgb", "grey:16"] {
+            let sets =
+                [format!("world.see={see:?}"), "memory.warm_up=8".into(), "world.layout=\"fixed:42\"".into()];
+            assert!(trained(agent, "door-key-5x5", 4, &sets) > 0);
+        }
+    }
+}

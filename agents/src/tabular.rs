@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use inroads_envs::{Annotated, Bits};
+use inroads_envs::{Annotated, Bits, Frame};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
@@ -48,6 +48,20 @@ impl Key for Vec<f32> {
 impl Key for Bits {
     fn key(&self) -> u128 {
         key(self.ones().map(|bit| bit as u64))
+    }
+}
+
+impl Key for Frame {
+    /// All its bytes, and its shape.
+    fn key(&self) -> u128 {
+        let [width, height] = self.size();
+        let shape = [width, height, self.channels()].map(u64::from);
+        let words = self.bytes().chunks(8).map(|bytes| {
+            let mut word = [0; 8];
+            word[..bytes.len()].copy_from_slice(bytes);
+            u64::from_le_bytes(word)
+        });
+        key(shape.into_iter().chain(words))
     }
 }
 
@@ -206,6 +220,23 @@ mod tests {
         let asked = [Some(&near), None, Some(&vec![5.0])];
         let values = learner.values(&Memory::new(), &observations[0], &asked);
         assert!((values[0] - 0.9).abs() < 1e-6 && (values[1] - 1.9).abs() < 1e-6 && values[2] == 0.0);
+    }
+
+    #[test]
+    fn pictures_are_told_apart_by_every_byte_and_by_their_shape() {
+        let black = Frame::new([3, 3], 3);
+        let mut keys: Vec<u128> = (0..27)
+            .map(|at| {
+                let mut frame = black.clone();
+                frame.bytes_mut()[at] = 1;
+                frame.key()
+            })
+            .collect();
+        keys.extend([black.key(), Frame::new([9, 1], 3).key(), Frame::new([3, 9], 1).key()]);
+        assert_eq!(Frame::new([3, 3], 3).key(), black.key());
+        keys.sort_unstable();
+        keys.dedup();
+        assert_eq!(keys.len(), 30);
     }
 
     #[test]

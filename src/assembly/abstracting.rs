@@ -29,6 +29,7 @@ pub(super) const ENTRIES: &[AgentEntry] = &[AgentEntry {
     continuous: None,
     discrete: Some(abstract_subgoals),
     annotated: None,
+    pictured: None,
 }];
 
 /// Settings of `abstract-subgoals`.

@@ -33,6 +33,7 @@ pub(super) const ENTRIES: &[AgentEntry] = &[
         continuous: Some(dsc),
         discrete: None,
         annotated: None,
+        pictured: None,
     },
     AgentEntry {
         name: "dsc-tabular",
@@ -42,6 +43,7 @@ pub(super) const ENTRIES: &[AgentEntry] = &[
         continuous: None,
         discrete: Some(dsc_tabular),
         annotated: None,
+        pictured: None,
     },
     AgentEntry {
         name: "robust-dsc-tabular",
@@ -51,6 +53,7 @@ pub(super) const ENTRIES: &[AgentEntry] = &[
         continuous: None,
         discrete: Some(dsc_tabular),
         annotated: None,
+        pictured: None,
     },
 ];
 

@@ -31,6 +31,7 @@ pub(super) const ENTRIES: &[AgentEntry] = &[AgentEntry {
     continuous: Some(dsg),
     discrete: None,
     annotated: None,
+    pictured: None,
 }];
 
 /// Settings of `dsg`.

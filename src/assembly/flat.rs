@@ -1,18 +1,19 @@
 //! Flat baselines: one learner for the whole task.
 
 use inroads_agents::{
-    Curious, Flat, Practice, Replay,
+    Curious, Flat, Key, Novelty, Practice, Replay,
     ddpg::{Ddpg, DdpgConfig},
     nets::Backend,
+    novelty::Counts,
     tabular::{TabularConfig, TabularQ},
 };
 use inroads_envs::{Seed, Spec};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use toml::Table;
 
 use super::{
     AgentEntry, BoxedAgent, Vector,
-    parts::NoveltyConfig,
+    parts::{Counted, NoveltyConfig},
     shared::{MemoryConfig, choices, named, scaled, table, tuned_ddpg},
 };
 use crate::config::{ConfigError, section};
@@ -26,6 +27,7 @@ pub(super) const ENTRIES: &[AgentEntry] = &[
         continuous: Some(ddpg),
         discrete: None,
         annotated: None,
+        pictured: None,
     },
     AgentEntry {
         name: "q-learning",
@@ -35,6 +37,7 @@ pub(super) const ENTRIES: &[AgentEntry] = &[
         continuous: None,
         discrete: Some(q_learning),
         annotated: None,
+        pictured: Some(q_learning),
     },
     AgentEntry {
         name: "counts-q",
@@ -42,8 +45,17 @@ pub(super) const ENTRIES: &[AgentEntry] = &[
         defaults: || table(&CountsConfig::default()),
         check: |t| section::<CountsConfig>(t.clone(), "counts-q")?.check(),
         continuous: None,
-        discrete: Some(counts_q),
+        discrete: Some(|spec, settings, _, _| {
+            let config: CountsConfig = section(settings.clone(), "counts-q")?;
+            named("novelty", config.novelty.fits(spec))?;
+            Ok(counts_q(spec, &config, config.novelty.build()))
+        }),
         annotated: None,
+        pictured: Some(|spec, settings, _, _| {
+            let config: CountsConfig = section(settings.clone(), "counts-q")?;
+            named("novelty", config.whole())?;
+            Ok(counts_q(spec, &config, Box::new(Counts::default())))
+        }),
     },
 ];
 
@@ -106,6 +118,25 @@ impl CountsConfig {
     }
 }
 
+impl CountsConfig {
+    /// Whether whole states are counted, which is all that can be of pictures.
+    fn whole(&self) -> Result<(), String> {
+        match self.novelty.counts {
+            Counted::States => Ok(()),
+            Counted::Features => {
+                Err("pictures have no features to be counted; set novelty.counts = \"states\", or see \
+                                      the world as symbols: --see symbols"
+                    .into())
+            }
+        }
+    }
+}
+
+/// What tables are kept of and experience is saved of: vectors, pictures.
+trait Remembered: Key + Clone + Serialize + DeserializeOwned + 'static {}
+
+impl<O: Key + Clone + Serialize + DeserializeOwned + 'static> Remembered for O {}
+
 impl FlatDdpgConfig {
     fn check(&self) -> Result<(), ConfigError> {
         named("memory", self.memory.check())?;
@@ -133,32 +164,31 @@ fn ddpg(
     Ok(Box::new(Flat::new(Curious::new(learner, config.memory.practice()), capacity)))
 }
 
-fn q_learning(
+/// An agent for whatever has keys.
+fn q_learning<O: Remembered>(
     spec: &Spec,
     settings: &Table,
     _: Backend,
     _: Seed,
-) -> Result<BoxedAgent<Vector, usize>, ConfigError> {
+) -> Result<BoxedAgent<O, usize>, ConfigError> {
     let config: FlatTabularConfig = section(settings.clone(), "q-learning")?;
     let learner = TabularQ::new(choices(spec), &config.policy);
     let capacity = config.memory.capacity;
     Ok(Box::new(Flat::new(Curious::new(learner, config.memory.practice()), capacity)))
 }
 
-fn counts_q(
+/// The same with a bonus for what is novel.
+fn counts_q<O: Remembered>(
     spec: &Spec,
-    settings: &Table,
-    _: Backend,
-    _: Seed,
-) -> Result<BoxedAgent<Vector, usize>, ConfigError> {
-    let config: CountsConfig = section(settings.clone(), "counts-q")?;
-    named("novelty", config.novelty.fits(spec))?;
+    config: &CountsConfig,
+    novelty: Box<dyn Novelty<O>>,
+) -> BoxedAgent<O, usize> {
     let learner = TabularQ::new(choices(spec), &config.policy);
     let capacity = config.memory.capacity;
     let replay = Replay::new(capacity).spanning(config.returns);
     let curious = Curious::new(learner.clone(), Practice::new(replay, config.memory.pace()))
         .sober(learner)
-        .with_novelty(config.novelty.build(), config.novelty.weight)
+        .with_novelty(novelty, config.novelty.weight)
         .centred(config.novelty.centred);
-    Ok(Box::new(Flat::new(curious, capacity)))
+    Box::new(Flat::new(curious, capacity))
 }

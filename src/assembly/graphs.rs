@@ -36,6 +36,7 @@ pub(super) const ENTRIES: &[AgentEntry] = &[AgentEntry {
         Ok(agent)
     }),
     annotated: None,
+    pictured: None,
 }];
 
 /// IM-DSG on tables.

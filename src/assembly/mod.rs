@@ -17,7 +17,7 @@ mod shared;
 use inroads_agents::nets::Backend;
 use inroads_discovery::Skilled;
 use inroads_envs::{
-    Annotated, Seed, Spec,
+    Annotated, Frame, Seed, Spec,
     registry::{self, Options, nearest},
     world::Layout,
 };
@@ -47,6 +47,8 @@ pub struct AgentEntry {
     /// Builds it for choices where it is told which proto-goals hold (chapter 8). A run's environment tells them to
     /// agents that have this constructor alone.
     pub annotated: Option<Build<Annotated<Vector>, usize>>,
+    /// Builds it for choices where it sees pictures.
+    pub pictured: Option<Build<Frame, usize>>,
 }
 
 /// Builds an agent from a domain's spec and checked settings.

@@ -25,6 +25,7 @@ pub(super) const ENTRIES: &[AgentEntry] = &[AgentEntry {
     continuous: None,
     discrete: None,
     annotated: Some(proto_goals),
+    pictured: None,
 }];
 
 /// Settings of `proto-goals`.

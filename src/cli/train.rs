@@ -8,10 +8,9 @@ use std::{
     },
 };
 
-use super::{Done, evaluate::report, progress::Progress, world};
+use super::{Done, evaluate::report, plot::drawn, progress::Progress, world};
 use crate::{
-    config::{Config, ConfigError},
-    draw,
+    config::{Config, ConfigError, Settings},
     run::{Ended, Run},
 };
 
@@ -84,15 +83,21 @@ pub(super) fn train(arguments: &Arguments) -> Done {
         Ended::Complete => {
             let (summary, frozen) = run.summarise()?;
             report(&summary);
-            draw::figures(&mut run, &frozen)?;
-            eprintln!("figures are in {}", run.folder.figures().display());
-            Ok(())
+            drawn(&mut run, &frozen)
         }
     }
 }
 
+/// The defaults with what was asked for in their place. How the world is seen is among that, and some defaults depend on it.
 fn configure(arguments: &Arguments) -> Result<Config, ConfigError> {
-    let mut config = Config::defaults(&arguments.agent, &arguments.environment)?;
+    let defaults = Config::defaults(&arguments.agent, &arguments.environment)?;
+    let world = asked(defaults.clone(), arguments)?.settings.world;
+    let Config { settings, agent } = defaults;
+    let fitted = Config { settings: Settings { world, ..settings }, agent }.fitted()?;
+    asked(fitted, arguments)
+}
+
+fn asked(mut config: Config, arguments: &Arguments) -> Result<Config, ConfigError> {
     if let Some(file) = &arguments.config {
         config = config.with_file(file)?;
     }

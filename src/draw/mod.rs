@@ -110,7 +110,7 @@ pub fn figures(run: &mut Run, frozen: &[Watched]) -> Result<(), RunError> {
     let trajectories: Vec<_> = frozen
         .iter()
         .take(TRAJECTORIES)
-        .map(|w| Trajectory { points: w.path.iter().map(|(s, skill)| ([s[0], s[1]], *skill)).collect() })
+        .map(|w| Trajectory { points: w.acted().map(|(s, skill)| ([s[0], s[1]], skill)).collect() })
         .collect();
     figures::trajectories(folder.join("trajectories.png"), &view.map, &trajectories)?;
     Ok(())
@@ -182,16 +182,10 @@ pub fn movie(run: &Run, watched: &Watched, path: &Path) -> Result<(), RunError> 
     let view = View::of(&run.config.settings).ok_or_else(|| RunError::NoMap(environment.clone()))?;
     let every = watched.path.len().div_ceil(300);
     let poses: Vec<_> = watched
-        .path
-        .iter()
+        .acted()
         .enumerate()
         .filter(|(step, _)| step % every == 0 || step + 1 == watched.path.len())
-        .map(|(step, (s, skill))| Pose {
-            step,
-            at: [s[0], s[1]],
-            heading: view.picture.heading(s),
-            skill: *skill,
-        })
+        .map(|(step, (s, skill))| Pose { step, at: [s[0], s[1]], heading: view.picture.heading(s), skill })
         .collect();
     figures::movie(path, &view.map, &poses)?;
     Ok(())

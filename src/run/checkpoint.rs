@@ -1,18 +1,23 @@
 //! Checkpoint files: written beside and renamed, so that a file with the name is whole.
+//!
+//! Compressed, for what is remembered repeats itself: a picture mostly shows what the one before it showed.
 
 use std::{
     fs,
-    io::Write,
+    io::{self, BufWriter, Read, Seek, Write},
     path::{Path, PathBuf},
 };
 
+use flate2::{Compression, read::ZlibDecoder, write::ZlibEncoder};
 use inroads_agents::Bag;
 
 use super::RunError;
 
-/// First bytes of every checkpoint; the last one is the version of the format.
-const MAGIC: &[u8; 8] = b"INROADS\x01";
-/// Magic, length of the rest, checksum of the rest.
+/// First bytes of every checkpoint, before the version of the format.
+const MAGIC: &[u8; 7] = b"INROADS";
+/// The format. Version 1 was not compressed.
+const VERSION: u8 = 2;
+/// Magic and version, length of the rest, checksum of the rest.
 const HEADER: usize = 8 + 8 + 4;
 /// Checkpoints that are kept.
 const KEPT: usize = 2;
@@ -21,22 +26,53 @@ const KEPT: usize = 2;
 pub(super) fn write(folder: &Path, episode: u64, bag: &Bag) -> Result<(), RunError> {
     let path = folder.join(format!("{episode:08}.ckpt"));
     let beside = path.with_extension("part");
-    let body = postcard::to_stdvec(bag).expect("plain data always encodes");
-    let mut file = fs::File::create(&beside).map_err(RunError::io("write", &beside))?;
-    let write = |file: &mut fs::File| {
-        file.write_all(MAGIC)?;
-        file.write_all(&(body.len() as u64).to_le_bytes())?;
-        file.write_all(&crc32fast::hash(&body).to_le_bytes())?;
-        file.write_all(&body)?;
-        file.sync_all()
-    };
-    write(&mut file).map_err(RunError::io("write", &beside))?;
+    let file = fs::File::create(&beside).map_err(RunError::io("write", &beside))?;
+    encode(file, bag).map_err(RunError::io("write", &beside))?;
     fs::rename(&beside, &path).map_err(RunError::io("write", &path))?;
     let all = list(folder)?;
     for old in &all[..all.len().saturating_sub(KEPT)] {
         fs::remove_file(old).map_err(RunError::io("remove", old))?;
     }
     Ok(())
+}
+
+/// Writes a whole file: the bag as it is compressed, never held in memory a second time, then the header before it.
+fn encode(mut file: fs::File, bag: &Bag) -> io::Result<()> {
+    file.write_all(&[0; HEADER])?;
+    // The quickest level: pictures to a twentieth, weights to a half, in about the time that encoding takes. The next ones
+    // take two to six times as long, for weights that become hardly smaller.
+    let body = Sealed { file, length: 0, sum: crc32fast::Hasher::new() };
+    let encoder = ZlibEncoder::new(BufWriter::new(body), Compression::fast());
+    // Postcard writes byte by byte, of which the encoder takes each for a call.
+    let encoder = BufWriter::with_capacity(1 << 16, encoder);
+    let encoder = postcard::to_io(bag, encoder).map_err(io::Error::other)?.into_inner()?;
+    let Sealed { mut file, length, sum } = encoder.finish()?.into_inner()?;
+    file.rewind()?;
+    file.write_all(MAGIC)?;
+    file.write_all(&[VERSION])?;
+    file.write_all(&length.to_le_bytes())?;
+    file.write_all(&sum.finalize().to_le_bytes())?;
+    file.sync_all()
+}
+
+/// A file that counts what is written and sums it up.
+struct Sealed {
+    file: fs::File,
+    length: u64,
+    sum: crc32fast::Hasher,
+}
+
+impl Write for Sealed {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.file.write(bytes)?;
+        self.sum.update(&bytes[..written]);
+        self.length += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
 }
 
 /// The checkpoints of a folder, oldest first.
@@ -54,9 +90,16 @@ pub(super) fn list(folder: &Path) -> Result<Vec<PathBuf>, RunError> {
 pub(super) fn read(path: &Path) -> Result<Bag, String> {
     let bytes = fs::read(path).map_err(|e| e.to_string())?;
     let (header, body) = bytes.split_at_checked(HEADER).ok_or("it is shorter than its header")?;
-    let (magic, rest) = header.split_at(8);
+    let (magic, rest) = header.split_at(MAGIC.len());
     if magic != MAGIC {
-        return Err("it does not begin like a checkpoint of this version".into());
+        return Err("it does not begin like a checkpoint".into());
+    }
+    let (version, rest) = rest.split_at(1);
+    if version != [VERSION] {
+        return Err(format!(
+            "it has version {} of the format, and this program reads {VERSION}; go on with the program that wrote it",
+            version[0]
+        ));
     }
     let (length, sum) = rest.split_at(8);
     if length != (body.len() as u64).to_le_bytes() {
@@ -65,7 +108,9 @@ pub(super) fn read(path: &Path) -> Result<Bag, String> {
     if sum != crc32fast::hash(body).to_le_bytes() {
         return Err("its checksum is wrong".into());
     }
-    postcard::from_bytes(body).map_err(|e| e.to_string())
+    let mut plain = Vec::new();
+    ZlibDecoder::new(body).read_to_end(&mut plain).map_err(|e| e.to_string())?;
+    postcard::from_bytes(&plain).map_err(|e| e.to_string())
 }
 
 #[cfg(test)]
@@ -95,6 +140,27 @@ mod tests {
     }
 
     #[test]
+    fn what_repeats_itself_takes_little_room() {
+        let folder = folder("room");
+        let mut bag = Bag::default();
+        // A thousand pictures of which each differs from the one before it in a pixel.
+        let mut picture = vec![0_u8; 4800];
+        let pictures: Vec<u8> = (0..1000)
+            .flat_map(|step| {
+                picture[step * 4 % 4800] = step as u8;
+                picture.clone()
+            })
+            .collect();
+        bag.put("pictures", &pictures);
+        write(&folder, 1, &bag).unwrap();
+        let path = list(&folder).unwrap().remove(0);
+        assert_eq!(read(&path), Ok(bag));
+        let size = fs::metadata(&path).unwrap().len();
+        assert!(size < 4_800_000 / 40, "{size} bytes");
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
     fn every_kind_of_damage_is_named() {
         let folder = folder("damage");
         let mut bag = Bag::default();
@@ -112,6 +178,9 @@ mod tests {
         *flipped.last_mut().unwrap() ^= 1;
         assert!(damaged(&flipped).contains("checksum"));
         assert!(damaged(&vec![0; whole.len()]).contains("does not begin"));
+        let mut older = whole.clone();
+        older[MAGIC.len()] = 1;
+        assert!(damaged(&older).contains("version 1 of the format, and this program reads 2"));
         fs::remove_dir_all(folder).unwrap();
     }
 }

@@ -14,7 +14,7 @@ pub use travel::Travelled;
 use inroads_agents::{Bag, Corrupt, Summary};
 use inroads_discovery::record::{GoalRecord, GraphRecord, PlanRecord, SkillRecord};
 use inroads_envs::{
-    Annotated, Environment, Refused, Seed, Spec,
+    Annotated, Environment, Frame, Refused, Seed, Spec,
     registry::{self, AnyAnnotated, AnyEnvironment},
 };
 use serde::{Deserialize, Serialize};
@@ -71,12 +71,13 @@ impl From<usize> for Action {
     }
 }
 
-/// A watched episode, for pictures.
+/// A watched episode, for figures and films.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Watched {
-    /// Every observation, and the skill that acted there (0: a primitive action); the last one's is the one
-    /// before's.
-    pub path: Vec<(Vector, usize)>,
+    /// Every observation, the last included; nothing where pictures are seen, which have no coordinates to be drawn.
+    pub path: Vec<Vector>,
+    /// The skill that took each step (0: a primitive action).
+    pub skills: Vec<usize>,
     /// The seed that the episode began with.
     pub start: u64,
     /// What was done; with the seed it is the whole episode.
@@ -90,9 +91,14 @@ pub struct Watched {
 impl Watched {
     /// Share of its steps that learned skills took.
     pub fn skill_share(&self) -> f64 {
-        let steps = self.path.len() - 1;
-        let skilled = self.path[..steps].iter().filter(|(_, skill)| *skill > 0).count();
-        skilled as f64 / steps.max(1) as f64
+        let skilled = self.skills.iter().filter(|skill| **skill > 0).count();
+        skilled as f64 / self.skills.len().max(1) as f64
+    }
+
+    /// Every observation with the skill that acted there; the last one's is the one before's.
+    pub fn acted(&self) -> impl ExactSizeIterator<Item = (&Vector, usize)> {
+        let last = self.skills.len().saturating_sub(1);
+        self.path.iter().enumerate().map(move |(step, s)| (s, self.skills[step.min(last)]))
     }
 }
 
@@ -128,7 +134,7 @@ pub trait Session {
     /// The agent's skills.
     fn skills(&self) -> Vec<SkillRecord>;
 
-    /// Of all skills: whether the observation is in its initiation set. Nothing where agents are told more than vectors.
+    /// Of all skills: whether the observation is in its initiation set. Nothing where agents see other things than vectors.
     fn members(&self, observation: &Vector) -> Vec<bool>;
 
     /// The agent's skill graph, if it has one.
@@ -168,24 +174,34 @@ pub trait Session {
 pub fn build(config: &Config) -> Result<Box<dyn Session>, ConfigError> {
     let settings = &config.settings;
     let entry = assembly::agent(&settings.agent)?;
-    let pictures = || {
-        ConfigError::World(format!(
-            "`{}` is seen as pictures, which no agent reads yet; see it as symbols: --see symbols",
-            settings.environment
-        ))
-    };
-    if let (None, None, Some(_)) = (entry.continuous, entry.discrete, entry.annotated) {
+    if entry.annotated.is_some() && entry.continuous.is_none() && entry.discrete.is_none() {
         let made = settings.world.with_options(|o| registry::make_annotated(&settings.environment, o))?;
         return match made {
             AnyAnnotated::Vectors(env) => annotated(env, config),
-            AnyAnnotated::Frames(_) => Err(pictures()),
+            AnyAnnotated::Frames(_) => Err(blind(settings)),
         };
     }
     match environment(settings)? {
         AnyEnvironment::Vectors(env) => continuous(env, config),
         AnyEnvironment::Choices(env) => discrete(env, config),
-        AnyEnvironment::Frames(_) => Err(pictures()),
+        AnyEnvironment::Frames(_) if entry.pictured.is_none() => Err(blind(settings)),
+        AnyEnvironment::Frames(env) => pictured(env, config),
     }
+}
+
+/// What is said to an agent that reads no pictures where there are only those.
+fn blind(settings: &Settings) -> ConfigError {
+    let Settings { agent, environment, .. } = settings;
+    let seeing = names(|entry| entry.pictured.is_some());
+    ConfigError::World(format!(
+        "`{environment}` is seen as pictures, which agent `{agent}` does not read; these do: {seeing}. Or see it as symbols: \
+         --see symbols"
+    ))
+}
+
+/// The names of some agents.
+fn names(of: impl Fn(&AgentEntry) -> bool) -> String {
+    assembly::agents().filter(|entry| of(entry)).map(|entry| entry.name).collect::<Vec<_>>().join(", ")
 }
 
 /// Builds the environment of a run.
@@ -237,6 +253,17 @@ pub fn annotated(
     pair(env, config, |entry| entry.annotated)
 }
 
+/// Builds the session of an environment of your own that is seen as pictures, and whose actions are choices.
+///
+/// # Errors
+/// As [`continuous`].
+pub fn pictured(
+    env: BoxedEnvironment<Frame, usize>,
+    config: &Config,
+) -> Result<Box<dyn Session>, ConfigError> {
+    pair(env, config, |entry| entry.pictured)
+}
+
 /// An environment with observations of type `O` and actions of type `A`.
 pub type BoxedEnvironment<O, A> = Box<dyn Environment<Observation = O, Action = A> + Send>;
 
@@ -247,12 +274,11 @@ fn pair<O: Seen + 'static, A: Clone + Into<Action> + 'static>(
 ) -> Result<Box<dyn Session>, ConfigError> {
     let settings = &config.settings;
     let Some(build) = of(assembly::agent(&settings.agent)?) else {
-        let fitting: Vec<_> = assembly::agents().filter(|e| of(e).is_some()).map(|e| e.name).collect();
         return Err(ConfigError::UnknownName(format!(
             "agent `{}` cannot act in `{}`, whose observations or actions are of another kind; these can: {}",
             settings.agent,
             settings.environment,
-            fitting.join(", ")
+            names(|entry| of(entry).is_some())
         )));
     };
     let seed = Seed(settings.seed);

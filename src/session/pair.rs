@@ -2,7 +2,7 @@
 
 use inroads_agents::{Actor, Bag, Context, Corrupt, episode};
 use inroads_discovery::record::{GoalRecord, GraphRecord, PlanRecord, Query, SkillRecord};
-use inroads_envs::{Annotated, Refused, Seed, Spec};
+use inroads_envs::{Annotated, Frame, Refused, Seed, Spec};
 
 use super::{
     Action, BoxedEnvironment, EpisodeMetrics, PlanError, Protocol, Session, Spot, Travelled, Watched,
@@ -10,18 +10,18 @@ use super::{
 };
 use crate::assembly::{BoxedAgent, Vector};
 
-/// An observation with a vector in it, which pictures are drawn from.
-pub(super) trait Seen: Clone + Default {
-    /// What is seen.
-    fn seen(&self) -> &Vector;
+/// An observation, perhaps with a vector in it, which figures are drawn from.
+pub(super) trait Seen: Clone + Default + PartialEq {
+    /// What is seen, as numbers; none where it is a picture.
+    fn seen(&self) -> Option<&Vector>;
 
     /// The observation in which this is seen; none where that is not all there is to know of it.
     fn wholly(seen: &Vector) -> Option<&Self>;
 }
 
 impl Seen for Vector {
-    fn seen(&self) -> &Vector {
-        self
+    fn seen(&self) -> Option<&Vector> {
+        Some(self)
     }
 
     fn wholly(seen: &Vector) -> Option<&Self> {
@@ -29,9 +29,19 @@ impl Seen for Vector {
     }
 }
 
+impl Seen for Frame {
+    fn seen(&self) -> Option<&Vector> {
+        None
+    }
+
+    fn wholly(_: &Vector) -> Option<&Self> {
+        None
+    }
+}
+
 impl Seen for Annotated<Vector> {
-    fn seen(&self) -> &Vector {
-        &self.seen
+    fn seen(&self) -> Option<&Vector> {
+        Some(&self.seen)
     }
 
     fn wholly(_: &Vector) -> Option<&Self> {
@@ -101,19 +111,17 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
         let Some(mut actor) = actor else { return Ok(None) };
         let mut ctx = Context::evaluation(self.seed, index);
         let start = self.seed.number("evaluate-start", index);
-        let (mut path, mut actions, mut covered) = (Vec::new(), Vec::new(), false);
+        let (mut path, mut skills, mut actions, mut covered) = (Vec::new(), Vec::new(), Vec::new(), false);
         let summary = episode(&mut *self.env, &mut *actor, start, &mut ctx, |t, source| {
-            if path.is_empty() {
-                path.push((t.before.seen().clone(), source));
+            if skills.is_empty() {
+                path.extend(t.before.seen().cloned());
                 covered = self.agent.members(t.before).contains(&true);
             }
-            if let Some((_, skill)) = path.last_mut() {
-                *skill = source;
-            }
-            path.push((t.after.seen().clone(), source));
+            path.extend(t.after.seen().cloned());
+            skills.push(source);
             actions.push(t.action.clone().into());
         })?;
-        Ok(Some(Watched { path, start, actions, covered, summary }))
+        Ok(Some(Watched { path, skills, start, actions, covered, summary }))
     }
 
     fn skills(&self) -> Vec<SkillRecord> {

@@ -81,6 +81,9 @@ pub enum PlanError {
         /// The names of those that are needed.
         wanted: String,
     },
+    /// What is seen has no coordinates.
+    #[error("`{0}` is seen as pictures, in which no place has coordinates; say `start` or a vertex's number")]
+    Pictures(&'static str),
     /// Coordinates are not all that the agent observes.
     #[error("the agent is told more than coordinates in `{0}`; give a vertex")]
     More(&'static str),
@@ -158,8 +161,8 @@ impl fmt::Display for Spot {
 pub(super) enum Located<O> {
     /// A vertex.
     Vertex(u32),
-    /// An observation, and what is as good as it.
-    State(O, Goal),
+    /// An observation, and what is as good as it; none where nothing else is.
+    State(O, Option<Goal>),
 }
 
 impl Spot {
@@ -182,13 +185,17 @@ impl Spot {
             }
             Self::Vertex(vertex) => Err(PlanError::NoVertex { vertex: *vertex, known: known(graph) }),
             Self::Start => {
-                let at = spec.place.iter().map(|&d| first.seen()[d]).collect();
-                Ok(Located::State(first.clone(), Goal { dims: spec.place.clone(), at, tolerance }))
+                let region = first.seen().map(|seen| {
+                    let at = spec.place.iter().map(|&d| seen[d]).collect();
+                    Goal { dims: spec.place.clone(), at, tolerance }
+                });
+                Ok(Located::State(first.clone(), region))
             }
             Self::Goal => {
                 let none = || PlanError::NoGoal { name: spec.name, known: known(graph) };
                 moved(first, spec.goal.clone().ok_or_else(none)?, spec)
             }
+            Self::At(_) if first.seen().is_none() => Err(PlanError::Pictures(spec.name)),
             Self::At(at) if at.len() == spec.place.len() => {
                 within(at, spec)?;
                 moved(first, Goal { dims: spec.place.clone(), at: at.clone(), tolerance }, spec)
@@ -217,10 +224,10 @@ fn within(at: &[f32], spec: &Spec) -> Result<(), PlanError> {
 
 /// The first observation, moved to a point.
 fn moved<O: Seen>(first: &O, to: Goal, spec: &Spec) -> Result<Located<O>, PlanError> {
-    let mut seen = first.seen().clone();
+    let mut seen = first.seen().ok_or(PlanError::Pictures(spec.name))?.clone();
     to.dims.iter().zip(&to.at).for_each(|(&d, &at)| seen[d] = at);
     let state = O::wholly(&seen).ok_or(PlanError::More(spec.name))?;
-    Ok(Located::State(state.clone(), to))
+    Ok(Located::State(state.clone(), Some(to)))
 }
 
 impl<O: Seen> Located<O> {
@@ -238,7 +245,10 @@ impl<O: Seen> Located<O> {
             Self::Vertex(_) => {
                 agent.plan(&Place::State(s), &self.place()).is_some_and(|plan| plan.legs.is_empty())
             }
-            Self::State(_, region) => region.reached(s.seen()),
+            Self::State(state, region) => match region.as_ref().zip(s.seen()) {
+                Some((region, seen)) => region.reached(seen),
+                None => s == state,
+            },
         }
     }
 }

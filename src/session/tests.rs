@@ -1,8 +1,10 @@
-//! Plans and journeys of an agent whose graph is known.
+//! Plans and journeys of an agent whose graph is known; what there is to know of one that sees pictures.
 
-use inroads_discovery::record::Query;
+use inroads_discovery::record::{GraphRecord, Query};
+use inroads_envs::{Frame, Seed};
 
-use super::{PlanError, Spot, stub};
+use super::{PlanError, Protocol, Spot, stub};
+use crate::config::Config;
 
 #[test]
 fn a_plan_tells_its_vertices_and_how_probable_it_is() {
@@ -28,7 +30,7 @@ fn what_is_no_place_and_where_no_way_leads_is_said() {
 
 #[test]
 fn an_agent_without_a_graph_has_no_plan() {
-    let config = crate::config::Config::defaults("q-learning", "corridor-5").unwrap();
+    let config = Config::defaults("q-learning", "corridor-5").unwrap();
     let mut session = super::build(&config).unwrap();
     assert_eq!(session.plan(&Spot::Start, &Spot::Goal), Err(PlanError::NoGraph));
     assert_eq!(session.travel(&Spot::Start, &Spot::Goal, 0), Err(PlanError::NoGraph));
@@ -47,4 +49,27 @@ fn a_journey_departs_from_where_its_plan_begins_and_counts_from_there() {
     assert_eq!(travel(Spot::Vertex(2), Spot::At(vec![2.0])), (Some(2), Some(2), 50));
     assert_eq!(travel(Spot::Start, Spot::Goal), (Some(0), Some(4), 4));
     assert_eq!(travel(Spot::Goal, Spot::Vertex(1)), (Some(4), None, 4));
+}
+
+#[test]
+fn of_pictures_there_are_no_coordinates_to_be_watched_or_planned_to() {
+    let config = Config::defaults("q-learning", "door-key-5x5").unwrap();
+    let config = config.with_assignment("world.see=\"rgb\"").unwrap().fitted().unwrap();
+    let mut session = super::build(&config).unwrap();
+    session.train().unwrap();
+    let watched = session.evaluate(Protocol::Frozen, 0).unwrap().unwrap();
+    assert_eq!(watched.path, [[0.0; 0]; 0]);
+    assert_eq!((watched.acted().len(), watched.skills.len()), (0, watched.actions.len()));
+    assert!(session.members(&vec![1.0]).is_empty());
+    assert_eq!(session.plan(&Spot::Start, &Spot::Goal), Err(PlanError::NoGraph));
+
+    let (first, other) = (Frame::new([2, 2], 3), Frame::new([2, 2], 1));
+    let (graph, spec) = (GraphRecord::default(), session.spec());
+    let at = |spot: Spot| spot.located(&first, &graph, spec).map(|_| ());
+    assert_eq!(at(Spot::At(vec![1.0, 2.0])), Err(PlanError::Pictures("door-key-5x5")));
+    assert!(matches!(at(Spot::Goal), Err(PlanError::NoGoal { .. })));
+    let start = Spot::Start.located(&first, &graph, spec).unwrap();
+    let agent = crate::assembly::agent("q-learning").unwrap().pictured.unwrap();
+    let agent = agent(spec, &config.agent, config.settings.backend, Seed(0)).unwrap();
+    assert!(start.holds(&*agent, &first) && !start.holds(&*agent, &other));
 }
