@@ -8,6 +8,7 @@
 
 mod actor_critic;
 mod adam;
+mod convolution;
 mod device;
 mod dueling;
 mod init;
@@ -22,7 +23,7 @@ pub(crate) use adam::Step;
 pub use device::{Backend, NoBackend};
 pub(crate) use probability::ProbabilityNet;
 pub(crate) use q_network::QNetwork;
-pub use torso::TorsoConfig;
+pub use torso::{TorsoConfig, Vision};
 
 use std::mem::take;
 
