@@ -2,7 +2,7 @@
 
 mod support;
 
-use std::fs;
+use std::{fs, io};
 
 use support::{Folder, fail, inroads, newest_checkpoint, small_training, succeed};
 
@@ -151,4 +151,23 @@ fn a_nan_action_ends_the_training_with_the_component_named() {
     training.args(["--set", "policy.actor_rate=1e38", "--set", "policy.critic_rate=1e38"]);
     let text = fail(&mut training);
     assert!(text.contains("action component 0 is NaN"), "{text}");
+}
+
+#[test]
+fn whoever_has_read_enough_ends_no_command() {
+    // As `inroads list | head -0` has it: nobody reads.
+    let (reader, writer) = io::pipe().unwrap();
+    drop(reader);
+    let output = succeed(inroads(&["list"]).stdout(writer));
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn what_cannot_be_printed_for_another_reason_is_told() {
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = inroads(&["list"]).stdout(full).output().unwrap();
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text.contains("standard output"), "{text}");
 }

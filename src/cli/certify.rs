@@ -5,7 +5,7 @@ use inroads_envs::{
     registry,
 };
 
-use super::{Done, world};
+use super::{Done, say::say, world};
 use crate::config::World;
 
 /// What `inroads certify` takes.
@@ -34,7 +34,6 @@ pub(super) struct Arguments {
 }
 
 /// A line of JSON an environment on the standard output, and a sentence for people on the other.
-#[allow(clippy::print_stdout)] // what the command is for
 pub(super) fn certify(arguments: &Arguments) -> Done {
     let &Arguments { seed, layouts, states, episodes, steps, .. } = arguments;
     let how = Options { seed, layouts, states, episodes, steps };
@@ -46,7 +45,7 @@ pub(super) fn certify(arguments: &Arguments) -> Done {
     }
     for name in &arguments.environments {
         let found = own.with_options(|options| registry::certify(name, options, &how))?;
-        println!("{}", serde_json::to_string(&found).expect("a certificate is numbers and words"));
+        say!("{}", serde_json::to_string(&found).expect("a certificate is numbers and words"));
         eprintln!("{}", sentence(&found));
     }
     Ok(())

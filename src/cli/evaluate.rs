@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::Done;
+use super::{Done, say::say};
 use crate::run::{Run, Summary};
 
 /// Skills that are told one by one.
@@ -18,11 +18,10 @@ pub(super) fn evaluate(path: &Path, episodes: Option<u64>, checkpoint: Option<&P
 }
 
 /// Prints what a run came to.
-#[allow(clippy::print_stdout)] // what the command is for
 pub(super) fn report(summary: &Summary) {
     let percent = |share: f64| format!("{:.0} %", 100.0 * share);
     let steps = |steps: Option<f64>| steps.map_or_else(|| "-".into(), |steps| format!("{steps:.0}"));
-    println!(
+    say!(
         "{} in {}, seed {}: {} episodes, {} steps, {:.0} s",
         summary.agent,
         summary.environment,
@@ -32,8 +31,8 @@ pub(super) fn report(summary: &Summary) {
         summary.wall_seconds
     );
     if summary.paid {
-        println!("  training success, last 50 episodes   {}", percent(summary.success_last_50));
-        println!(
+        say!("  training success, last 50 episodes   {}", percent(summary.success_last_50));
+        say!(
             "  frozen success, {} episodes          {}   median steps {}   by skills {}",
             summary.eval_episodes,
             percent(summary.eval_success),
@@ -41,22 +40,24 @@ pub(super) fn report(summary: &Summary) {
             percent(summary.eval_skill_share)
         );
     } else {
-        println!("  nothing was paid in any episode, so there is no success to tell of");
+        say!("  nothing was paid in any episode, so there is no success to tell of");
     }
     if let Some(chain) = summary.chain_success.filter(|_| summary.paid) {
-        println!(
+        say!(
             "  the chain alone                      {}   median steps {}",
             percent(chain),
             steps(summary.chain_median_steps)
         );
     }
     if let Some(graph) = &summary.graph {
-        println!("  skill graph                          {} vertices, {} edges", graph.vertices, graph.edges);
+        say!("  skill graph                          {} vertices, {} edges", graph.vertices, graph.edges);
     }
     if let Some(goals) = &summary.goals {
-        println!(
+        say!(
             "  goals                                {} seen, {} plausible, {} mastered",
-            goals.seen, goals.plausible, goals.mastered
+            goals.seen,
+            goals.plausible,
+            goals.mastered
         );
     }
     if summary.graph.is_some() {
@@ -68,12 +69,14 @@ pub(super) fn report(summary: &Summary) {
         let target = skill.enters.map_or_else(|| "the goal".to_owned(), |k| format!("skill {k}"));
         let area =
             set.area.map_or_else(String::new, |area| format!(", covers {} of free space", percent(area)));
-        println!(
+        say!(
             "  skill {} reaches {target}: {} of {} executions{area}",
-            skill.skill, skill.successes, skill.executions
+            skill.skill,
+            skill.successes,
+            skill.executions
         );
     }
     if let Some(more) = summary.sets.len().checked_sub(SKILLS + 1) {
-        println!("  and {} more, in summary.json", more + 1);
+        say!("  and {} more, in summary.json", more + 1);
     }
 }

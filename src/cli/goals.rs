@@ -5,7 +5,7 @@ use std::path::Path;
 use inroads_discovery::record::{GoalRecord, GoalState, GraphRecord};
 use inroads_envs::Spec;
 
-use super::Done;
+use super::{Done, say::say};
 use crate::{
     draw::{self, Questions},
     run::{Run, RunError},
@@ -22,11 +22,11 @@ pub(super) fn goals(path: &Path, checkpoint: Option<&Path>) -> Done {
     }
     if !goals.is_empty() {
         table(of_goals(&goals, &Questions::of(&run.config.settings)));
-        tell(&counts(&goals));
+        say!("{}", counts(&goals));
     }
     if let Some(graph) = graph {
         table(of_vertices(&graph, run.session.spec()));
-        tell(&format!("{} vertices, {} edges", graph.vertices.len(), graph.edges.len()));
+        say!("{} vertices, {} edges", graph.vertices.len(), graph.edges.len());
     }
     Ok(())
 }
@@ -99,11 +99,6 @@ fn table(rows: Vec<Vec<String>>) {
     let shown: Vec<(usize, usize)> = (0..columns).filter(told).map(|column| (column, wide(column))).collect();
     for row in &rows {
         let cells: Vec<_> = shown.iter().map(|&(column, wide)| format!("{:<wide$}", row[column])).collect();
-        tell(format!("  {}", cells.join("   ")).trim_end());
+        say!("{}", format!("  {}", cells.join("   ")).trim_end());
     }
-}
-
-#[allow(clippy::print_stdout)] // what the command is for
-fn tell(line: &str) {
-    println!("{line}");
 }

@@ -9,6 +9,7 @@ mod play;
 mod plot;
 mod progress;
 mod render;
+mod say;
 mod train;
 mod world;
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use inroads_discovery::record::{PlanRecord, Query};
 
-use super::Done;
+use super::{Done, say::say};
 use crate::{
     run::Run,
     session::{Spot, Travelled},
@@ -49,22 +49,20 @@ pub(super) fn plan(arguments: &Arguments) -> Done {
     Ok(())
 }
 
-#[allow(clippy::print_stdout)] // what the command is for
 fn show(from: &Spot, to: &Spot, plan: &PlanRecord) {
     let case = match plan.case {
         Query::Inside => "both lie in the graph",
         Query::GoalOutside => "the end lies outside the graph: a skill goes on from the last vertex",
         Query::StartOutside => "the beginning lies outside the graph: a skill goes to the first vertex",
     };
-    println!("from {from} to {to}: {case}");
+    say!("from {from} to {to}: {case}");
     for (vertex, probability) in &plan.legs {
-        println!("  vertex {vertex:<6} {probability:.2}");
+        say!("  vertex {vertex:<6} {probability:.2}");
     }
-    println!("predicted success   {:.2}", plan.probability());
+    say!("predicted success   {:.2}", plan.probability());
 }
 
 /// Realised success beside predicted; from where the plan begins, which has to be reached first.
-#[allow(clippy::print_stdout)] // what the command is for
 fn report(from: &Spot, to: &Spot, plan: &PlanRecord, travelled: &[Travelled]) {
     let departed = travelled.iter().filter(|journey| journey.departed.is_some()).count();
     let steps: Vec<f64> = travelled
@@ -72,17 +70,13 @@ fn report(from: &Spot, to: &Spot, plan: &PlanRecord, travelled: &[Travelled]) {
         .filter_map(|journey| Some(f64::from(journey.arrived?) - f64::from(journey.departed?)))
         .collect();
     if departed < travelled.len() {
-        println!("was at {from} in {departed} of {} episodes", travelled.len());
+        say!("was at {from} in {departed} of {} episodes", travelled.len());
     }
     let Some(steps_of_half) = median(&steps) else {
-        println!("realised success    0 of {departed}; predicted {:.2}", plan.probability());
+        say!("realised success    0 of {departed}; predicted {:.2}", plan.probability());
         return;
     };
     let share = wilson(steps.len() as u64, departed as u64);
-    println!(
-        "realised success    {share}, {} of {departed}; predicted {:.2}",
-        steps.len(),
-        plan.probability()
-    );
-    println!("was at {to} after   {steps_of_half:.0} steps (median)");
+    say!("realised success    {share}, {} of {departed}; predicted {:.2}", steps.len(), plan.probability());
+    say!("was at {to} after   {steps_of_half:.0} steps (median)");
 }

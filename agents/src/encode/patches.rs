@@ -1,4 +1,4 @@
-//! Pictures as rows that a network reads: each picture cut into square patches.
+//! Pictures as rows that a network reads: each picture as its square patches.
 
 use inroads_envs::{Frame, Space};
 
@@ -8,16 +8,20 @@ use super::{Encoder, Shape};
 /// a dozen times.
 const SIDES: [u32; 4] = [8, 7, 6, 5];
 
-/// A picture as its patches, which do not overlap: row by row of patches, and within each row by row of pixels, bytes
-/// scaled to [0, 1].
+/// A picture as its patches: row by row of patches, and within each row by row of pixels, bytes scaled to [0, 1]. They tile
+/// the picture or, for a convolution, overlap.
 ///
 /// A network's first layer is then one matrix product for all patches, and the frame stays bytes until this write.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Patches {
     side: usize,
+    /// Pixels from one patch to the next.
+    stride: usize,
     across: usize,
     down: usize,
     channels: usize,
+    /// Bytes a row of the picture.
+    line: usize,
 }
 
 /// Why pictures cannot be cut.
@@ -38,6 +42,18 @@ pub enum PatchError {
         /// The patch's side, pixels.
         side: u32,
     },
+    /// The picture is smaller than what is to look at it.
+    #[error(
+        "a picture of {width} by {height} is too small: these kernels need one of {least} by {least} or more"
+    )]
+    Small {
+        /// Pixels a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Pixels that each side must have.
+        least: u32,
+    },
 }
 
 impl Patches {
@@ -54,8 +70,26 @@ impl Patches {
         if !divides(side) {
             return Err(PatchError::Ragged { width, height, side });
         }
-        let [across, down] = [width, height].map(|pixels| (pixels / side) as usize);
-        Ok(Self { side: side as usize, across, down, channels: channels as usize })
+        Self::overlapping(&Space::Frame { width, height, channels }, side, side)
+    }
+
+    /// The encoder for patches of `side` pixels, `stride` pixels from each other: what a convolution with such a kernel looks
+    /// at. As there, pixels at the right and at the bottom that fill no patch are not seen.
+    ///
+    /// # Errors
+    /// [`PatchError`] when it is no picture, or smaller than a patch.
+    ///
+    /// # Panics
+    /// When `side` or `stride` is 0.
+    pub fn overlapping(space: &Space, side: u32, stride: u32) -> Result<Self, PatchError> {
+        assert!(side > 0 && stride > 0, "patches have a side and a stride");
+        let Space::Frame { width, height, channels } = *space else { return Err(PatchError::NoPicture) };
+        if width.min(height) < side {
+            return Err(PatchError::Small { width, height, least: side });
+        }
+        let [across, down] = [width, height].map(|pixels| ((pixels - side) / stride + 1) as usize);
+        let [side, stride, width, channels] = [side, stride, width, channels].map(|n| n as usize);
+        Ok(Self { side, stride, across, down, channels, line: width * channels })
     }
 }
 
@@ -66,11 +100,12 @@ impl Encoder<Frame> for Patches {
 
     fn write(&self, frame: &Frame, out: &mut [f32]) {
         let strip = self.side * self.channels;
-        for (y, row) in frame.bytes().chunks_exact(self.across * strip).enumerate() {
-            let (patch, line) = (y / self.side * self.across, y % self.side);
-            for (x, pixels) in row.chunks_exact(strip).enumerate() {
-                let to = ((patch + x) * self.side + line) * strip;
-                for (out, byte) in out[to..to + strip].iter_mut().zip(pixels) {
+        let corners = (0..self.down).flat_map(|y| (0..self.across).map(move |x| [y, x]));
+        for (patch, [y, x]) in out.chunks_exact_mut(self.side * strip).zip(corners) {
+            let corner = self.stride * (y * self.line + x * self.channels);
+            let lines = frame.bytes()[corner..].chunks(self.line);
+            for (out, bytes) in patch.chunks_exact_mut(strip).zip(lines) {
+                for (out, byte) in out.iter_mut().zip(bytes) {
                     *out = f32::from(*byte) * (1.0 / 255.0);
                 }
             }
@@ -99,6 +134,23 @@ mod tests {
         assert_eq!(bytes[..8], [0, 1, 2, 3, 8, 9, 10, 11]);
         assert_eq!(bytes[8..16], [4, 5, 6, 7, 12, 13, 14, 15]);
         assert_eq!(bytes[40..], [36, 37, 38, 39, 44, 45, 46, 47]);
+    }
+
+    #[test]
+    fn patches_of_a_convolution_overlap_and_leave_out_what_fills_none() {
+        let space = Space::Frame { width: 6, height: 5, channels: 1 };
+        let patches = Patches::overlapping(&space, 3, 2).unwrap();
+        assert_eq!(patches.shape(), Shape::Grid { down: 2, across: 2, width: 9 });
+        let mut frame = Frame::new([6, 5], 1);
+        frame.bytes_mut().iter_mut().enumerate().for_each(|(i, byte)| *byte = i as u8);
+        let mut row = vec![-1.0; patches.width()];
+        patches.write(&frame, &mut row);
+        let bytes: Vec<_> = row.iter().map(|x| (x * 255.0).round() as u8).collect();
+        assert_eq!(bytes[..9], [0, 1, 2, 6, 7, 8, 12, 13, 14]);
+        assert_eq!(bytes[9..18], [2, 3, 4, 8, 9, 10, 14, 15, 16]);
+        assert_eq!(bytes[27..], [14, 15, 16, 20, 21, 22, 26, 27, 28]);
+        let small = Patches::overlapping(&space, 6, 1).unwrap_err().to_string();
+        assert!(small.contains("6 by 5") && small.contains("6 by 6"), "{small}");
     }
 
     #[test]

@@ -9,6 +9,7 @@
 mod actor_critic;
 mod adam;
 mod deep_q;
+mod convolution;
 mod device;
 mod dueling;
 mod init;
@@ -27,7 +28,7 @@ pub(crate) use dueling::{HeadParts, HeadShape};
 pub(crate) use noisy::head_noise;
 pub(crate) use probability::ProbabilityNet;
 pub(crate) use q_network::QNetwork;
-pub use torso::TorsoConfig;
+pub use torso::{TorsoConfig, Vision};
 
 use std::mem::take;
 

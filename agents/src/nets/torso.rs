@@ -1,26 +1,43 @@
-//! From rows of what is seen to features: layers of rectified units, and for pictures an embedding of patches before them.
+//! From rows of what is seen to features: layers of rectified units, and for pictures an embedding of patches or a
+//! convolution before them.
 //!
 //! A patch embedding is a product of every patch with one matrix; a merge joins two by two places into one and is a product
-//! too. So all of it is large matrix products, where a convolution would first have to gather its windows: at 84 × 84
-//! and a batch of 32 it trains in an eighth of the time of Nature's convolution (`docs/results/learners.md`).
+//! too. So all of it is large matrix products, where a convolution first has to gather its windows: the default is several
+//! times as fast as Nature's convolution (`docs/results/learners/speed.md`).
 
 use burn::module::Module;
 use burn::nn::Linear;
 use burn::tensor::activation::relu;
 use burn::tensor::{Device, Tensor};
-use inroads_envs::Rng;
+use inroads_envs::{Rng, Space};
 use serde::{Deserialize, Serialize};
 
+use super::convolution::{NATURE, least};
 use super::{init, mlp::rectified};
-use crate::encode::Shape;
+use crate::encode::{PatchError, Patches, Shape};
+
+/// How pictures are looked at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Vision {
+    /// Patches side by side, each embedded alone, and two by two of their places merged again and again.
+    #[default]
+    Patches,
+    /// The convolution of DQN (Mnih 2015): 32 kernels of 8 × 8 with stride 4, 64 of 4 × 4 with stride 2, 64 of 3 × 3; the
+    /// paper has `hidden` 512 on top. Pictures have at least 36 by 36 pixels.
+    Nature,
+}
 
 /// Settings of what makes features of what is seen.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct TorsoConfig {
-    /// Features a patch of a picture; nothing for vectors.
+    /// How pictures are looked at; nothing for vectors.
+    pub vision: Vision,
+    /// Features a patch of a picture, with `vision = "patches"`.
     pub embedding: usize,
-    /// Features a place after each merge of two by two places, as long as there is more than one.
+    /// Features a place after each merge of two by two places, as long as there is more than one; with
+    /// `vision = "patches"`.
     pub merges: Vec<usize>,
     /// Widths of the layers on top, at least one.
     pub hidden: Vec<usize>,
@@ -28,7 +45,7 @@ pub struct TorsoConfig {
 
 impl Default for TorsoConfig {
     fn default() -> Self {
-        Self { embedding: 32, merges: vec![64, 64], hidden: vec![128] }
+        Self { vision: Vision::Patches, embedding: 32, merges: vec![64, 64], hidden: vec![128] }
     }
 }
 
@@ -48,6 +65,23 @@ impl TorsoConfig {
         Ok(())
     }
 
+    /// What writes the pictures of a space as this torso reads them.
+    ///
+    /// # Errors
+    /// [`PatchError`] when they are no pictures, or too small: it names both sizes.
+    pub fn encoder(&self, space: &Space) -> Result<Patches, PatchError> {
+        if self.vision == Vision::Patches {
+            return Patches::new(space, 0);
+        }
+        let [side, stride, least] = [NATURE[0].side, NATURE[0].stride, least(&NATURE)].map(|n| n as u32);
+        match *space {
+            Space::Frame { width, height, .. } if width.min(height) < least => {
+                Err(PatchError::Small { width, height, least })
+            }
+            _ => Patches::overlapping(space, side, stride),
+        }
+    }
+
     /// How many features there are.
     pub(crate) fn features(&self) -> usize {
         *self.hidden.last().expect("a torso has a hidden layer")
@@ -57,36 +91,50 @@ impl TorsoConfig {
 /// Rows in, rectified features out.
 #[derive(Module, Debug, Default)]
 pub(crate) struct Torso {
-    /// Empty for vectors.
-    patches: Vec<Linear>,
+    /// What makes features of a patch, and then of several places together; empty for vectors.
+    places: Vec<Linear>,
     hidden: Vec<Linear>,
     /// Rows and columns of patches, and numbers a patch.
     grid: [usize; 3],
+    /// Whether places are joined in [`NATURE`]'s windows, and not two by two.
+    nature: bool,
 }
 
 impl Torso {
     /// # Panics
-    /// When there is no hidden layer, or one of width 0: see [`TorsoConfig::check`].
+    /// When there is no hidden layer, or one of width 0: see [`TorsoConfig::check`]. When a convolution does not fit into the
+    /// grid: see [`TorsoConfig::encoder`].
     pub(crate) fn new(shape: Shape, config: &TorsoConfig, device: &Device, rng: &mut Rng) -> Self {
-        let mut patches = Vec::new();
+        let (mut layers, nature) = (Vec::new(), config.vision == Vision::Nature);
         let (mut width, grid) = match shape {
             Shape::Row(width) => (width, [0; 3]),
             Shape::Grid { down, across, width } => {
-                let (mut places, mut features) = ([down, across], config.embedding);
-                patches.push(init::by_inputs(width, features, device, rng));
-                for &merged in config.merges.iter() {
-                    if places == [1, 1] {
-                        break;
+                let (mut places, mut features) = ([down, across], width);
+                let mut layer = |joined: usize, next: usize| {
+                    layers.push(init::by_inputs(joined * features, next, device, rng));
+                    features = next;
+                };
+                if nature {
+                    layer(1, NATURE[0].features);
+                    for kernel in &NATURE[1..] {
+                        places = places.map(|n| kernel.windows(n));
+                        layer(kernel.side * kernel.side, kernel.features);
                     }
-                    places = places.map(|n| n.div_ceil(2));
-                    patches.push(init::by_inputs(4 * features, merged, device, rng));
-                    features = merged;
+                } else {
+                    layer(1, config.embedding);
+                    for &merged in config.merges.iter() {
+                        if places == [1, 1] {
+                            break;
+                        }
+                        places = places.map(|n| n.div_ceil(2));
+                        layer(4, merged);
+                    }
                 }
                 (places[0] * places[1] * features, [down, across, width])
             }
         };
         let hidden = init::hidden(&mut width, &config.hidden, device, rng);
-        Self { patches, hidden, grid }
+        Self { places: layers, hidden, grid, nature }
     }
 
     /// Features, a row for each row.
@@ -96,13 +144,18 @@ impl Torso {
 
     /// What the layers on top read.
     fn embedded(&self, rows: Tensor<2>) -> Tensor<2> {
-        let Some((first, merges)) = self.patches.split_first() else { return rows };
+        let Some((first, rest)) = self.places.split_first() else { return rows };
         let n = rows.dims()[0];
         let [down, across, width] = self.grid;
         let mut places = [down, across];
         let mut x = relu(first.forward(rows.reshape([n * down * across, width])));
-        for layer in merges {
-            x = relu(layer.forward(merged(x, n, &mut places)));
+        for (i, layer) in rest.iter().enumerate() {
+            let joined = if self.nature {
+                NATURE[i + 1].gathered(x, n, &mut places)
+            } else {
+                merged(x, n, &mut places)
+            };
+            x = relu(layer.forward(joined));
         }
         let features = x.dims()[1];
         x.reshape([n, places[0] * places[1] * features])
@@ -130,50 +183,4 @@ fn beyond(x: Tensor<4>, dim: usize) -> Tensor<4> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::nets::{Backend, floats, rows};
-    use inroads_envs::Seed;
-
-    fn torso(shape: Shape, config: &TorsoConfig) -> Torso {
-        Torso::new(shape, config, &Backend::of_tests().plain(), &mut Seed(1).stream("weights", 0))
-    }
-
-    #[test]
-    fn four_neighbours_become_one_place() {
-        // 3 × 3 places of one number, 1 to 9.
-        let device = Backend::of_tests().plain();
-        let x = rows((1..=9).map(|i| i as f32).collect(), 1, &device);
-        let mut places = [3, 3];
-        let joined = merged(x, 1, &mut places);
-        assert_eq!(places, [2, 2]);
-        let expected =
-            [[1.0, 2.0, 4.0, 5.0], [3.0, 0.0, 6.0, 0.0], [7.0, 8.0, 0.0, 0.0], [9.0, 0.0, 0.0, 0.0]];
-        assert_eq!(floats(joined), expected.concat());
-    }
-
-    #[test]
-    fn rows_do_not_depend_on_their_neighbours_in_the_batch() {
-        for shape in [Shape::Row(24), Shape::Grid { down: 3, across: 2, width: 4 }] {
-            let torso = torso(shape, &TorsoConfig { hidden: vec![16, 5], ..TorsoConfig::default() });
-            let row = |i: usize| (0..24).map(|j| ((i * 24 + j) as f32).sin()).collect::<Vec<_>>();
-            let device = Backend::of_tests().plain();
-            let all = floats(torso.forward(rows([row(0), row(1), row(2)].concat(), 24, &device)));
-            for i in 0..3 {
-                let one = floats(torso.forward(rows(row(i), 24, &device)));
-                for (a, b) in one.iter().zip(&all[5 * i..]) {
-                    assert!((a - b).abs() < 1e-5, "{a} {b}");
-                }
-            }
-            assert!(all.iter().any(|x| *x > 0.0));
-        }
-    }
-
-    #[test]
-    fn settings_that_make_no_network_are_named() {
-        assert_eq!(TorsoConfig::default().check(), Ok(()));
-        let wrong = |config: TorsoConfig| config.check().unwrap_err();
-        assert!(wrong(TorsoConfig { hidden: vec![], ..Default::default() }).contains("hidden"));
-        assert!(wrong(TorsoConfig { merges: vec![0], ..Default::default() }).contains("merges"));
-    }
-}
+mod tests;
