@@ -10,7 +10,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let config = Config::defaults("dsc", "point-maze")?.with_assignment(&format!("episodes={episodes}"))?;
     let mut session = session::build(&config)?;
     for _ in 0..episodes {
-        let episode = session.train()?;
+        let episode = &session.train()?[0];
         eprintln!("episode {}: return {}, {} skills", episode.episode, episode.reward, episode.skills);
     }
     for skill in session.skills() {

@@ -73,9 +73,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let env = TimeLimit::new(MountainCar::new(), 1000);
     let config = Config::defaults("dsc", "mountain-car")?;
-    let mut session = session::continuous(Box::new(env), &config)?;
+    let mut session = session::continuous(vec![Box::new(env)], &config)?;
     for _ in 0..if quick { 3 } else { 100 } {
-        let episode = session.train()?;
+        let episode = &session.train()?[0];
         eprintln!("episode {}: {} steps, {} skills", episode.episode, episode.steps, episode.skills);
     }
     Ok(())

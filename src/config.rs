@@ -94,8 +94,11 @@ pub struct Settings {
     pub seed: u64,
     /// The backend of Burn.
     pub backend: Backend,
-    /// Training episodes.
+    /// Training episodes. Where there are several lanes, the last round is played to its end.
     pub episodes: u64,
+    /// Episodes that are played side by side, at least 1; more where the agent lives several at a time. Then actions are
+    /// chosen together, and an episode does not know yet what those beside it teach.
+    pub lanes: u64,
     /// Training ends after the episode that reaches this many steps of the environment; 0: no such bound.
     pub max_steps: u64,
     /// Frozen, noise-free episodes after training.
@@ -181,6 +184,7 @@ impl Config {
             seed: 0,
             backend: Backend::default(),
             episodes: 300,
+            lanes: 1,
             max_steps: 0,
             evaluation_episodes: 20,
             checkpoint_every: 25,
@@ -263,8 +267,8 @@ impl Config {
         let (settings, agent) =
             table.into_iter().partition::<Table, _>(|(key, _)| !self.agent.contains_key(key));
         let settings: Settings = section(settings, "the run's settings")?;
-        if settings.checkpoint_every == 0 || settings.episodes == 0 {
-            let why = "episodes and checkpoint_every must be at least 1".to_owned();
+        if settings.checkpoint_every == 0 || settings.episodes == 0 || settings.lanes == 0 {
+            let why = "episodes, lanes and checkpoint_every must be at least 1".to_owned();
             return Err(ConfigError::Impossible { table: "the run's settings".into(), why });
         }
         let entry = assembly::agent(&settings.agent)?;

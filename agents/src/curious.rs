@@ -2,8 +2,8 @@
 //! and, without a bonus, every flat baseline.
 
 use crate::{
-    Bag, Checkpoint, Clip, Context, Corrupt, Experience, Learned, Learner, Lesson, Memory, Novelty, Practice,
-    Running, experience::Rewards,
+    Bag, Checkpoint, Clip, Context, Corrupt, Experience, Lane, Learned, Learner, Lesson, Memory, Novelty,
+    Practice, Running, experience::Rewards,
 };
 
 /// A learner that sees every step of an agent's life once, and learns R + b · r_novelty.
@@ -86,6 +86,14 @@ impl<O, L> Curious<O, L> {
         L: Learner<O, A, ()>,
     {
         self.learner(ctx.explore).act(memory, s, None, ctx)
+    }
+
+    /// The actions of several lanes, all of which explore or none.
+    pub fn act_all<A>(&self, lanes: &mut [Lane<'_, O, ()>]) -> Vec<A>
+    where
+        L: Learner<O, A, ()>,
+    {
+        self.learner(lanes.iter().all(|lane| lane.ctx.explore)).act_all(lanes)
     }
 
     /// Whether somebody who acts must now note what it remembers ([`Experience::note`]), before it sees observation

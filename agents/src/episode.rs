@@ -1,8 +1,11 @@
-//! The episode loop. There is one; training, evaluation and pictures go through it.
+//! One episode: a [`round`] of one lane. There is no other loop; training, evaluation and pictures go through it.
 
-use inroads_envs::{End, Environment, Refused, Step};
+use inroads_envs::{End, Environment, Refused};
 
-use crate::{Actor, Context, Transition};
+use crate::{
+    Actor, Context, Transition,
+    lanes::{Alone, round},
+};
 
 /// What an episode came to.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,26 +34,7 @@ pub fn episode<E: Environment + ?Sized>(
     ctx: &mut Context,
     mut watch: impl FnMut(&Transition<E::Observation, E::Action>, usize),
 ) -> Result<Summary, Refused> {
-    let (mut before, mut after) = (E::Observation::default(), E::Observation::default());
-    let (mut steps, mut total) = (0, 0.0);
-    env.reset(seed);
-    env.observe(&mut before);
-    actor.begin(&before, ctx);
-    loop {
-        let action = actor.act(&before, ctx);
-        let Step { reward, end } = env.step(&action)?;
-        env.observe(&mut after);
-        steps += 1;
-        total += reward;
-        let source = actor.source();
-        let transition = Transition { before: &before, action: &action, reward, after: &after, end };
-        actor.observe(&transition, ctx);
-        watch(&transition, source);
-        if let Some(end) = end {
-            let success = env.spec().succeeded(&Step { reward, end: Some(end) });
-            let fault = env.fault().map(str::to_owned);
-            return Ok(Summary { steps, reward: total, end, success, fault });
-        }
-        std::mem::swap(&mut before, &mut after);
-    }
+    let watch = |_, t: &Transition<E::Observation, E::Action>, source| watch(t, source);
+    let mut summaries = round(&mut [env], &mut Alone(actor), &[seed], std::slice::from_mut(ctx), watch)?;
+    Ok(summaries.pop().expect("there is one lane"))
 }

@@ -1,41 +1,68 @@
 //! A learner alone as an agent: every flat baseline.
 
-use crate::{
-    Actor, Agent, Bag, Checkpoint, Context, Corrupt, Curious, Experience, Learner, Memory, Transition,
-};
+use std::slice;
+
 use serde::{Serialize, de::DeserializeOwned};
+
+use crate::{
+    Actor, Agent, Bag, Checkpoint, Context, Corrupt, Crowd, Curious, Experience, Lane, Learner, Memory,
+    Transition,
+};
 
 /// A learner that acts on its own, on the task's reward, and a bonus for what is new if it is given one.
 pub struct Flat<O, A, L> {
     curious: Curious<O, L>,
     experience: Experience<O, A>,
-    memory: Memory,
+    /// The episodes that go on, by lane: their numbers, and what is remembered in them.
+    lanes: Vec<(u64, Memory)>,
 }
 
 impl<O: Clone, A: Clone, L: Learner<O, A, ()>> Flat<O, A, L> {
     /// An agent that remembers about `capacity` steps.
     pub fn new(curious: Curious<O, L>, capacity: usize) -> Self {
-        Self { curious, experience: Experience::new(capacity), memory: Memory::new() }
+        Self { curious, experience: Experience::new(capacity), lanes: Vec::new() }
     }
 }
 
+impl<O: Clone, A: Clone, L: Learner<O, A, ()>> Crowd<O, A> for Flat<O, A, L> {
+    fn begin_lane(&mut self, lane: usize, s: &O, _: &mut Context) {
+        self.lanes.truncate(lane);
+        self.lanes.push((self.experience.begin(s), Memory::new()));
+    }
+
+    fn act_lanes(&mut self, running: &[usize], s: &[O], ctxs: &mut [Context], actions: &mut Vec<A>) {
+        for (number, memory) in running.iter().map(|&lane| &self.lanes[lane]) {
+            if self.curious.begins_at(self.experience.length(*number)) {
+                self.experience.note(*number, memory);
+            }
+        }
+        let all = self.lanes.iter_mut().zip(s).zip(ctxs).enumerate();
+        let runs = all.filter(|(lane, _)| running.contains(lane));
+        let acting = runs.map(|(_, (((_, memory), s), ctx))| Lane { memory, s, goal: None, ctx });
+        actions.extend(self.curious.act_all(&mut acting.collect::<Vec<_>>()));
+    }
+
+    fn observe_lane(&mut self, lane: usize, t: &Transition<O, A>, ctx: &mut Context) {
+        let (number, _) = self.lanes[lane];
+        self.experience.push_to(number, t);
+        self.curious.step(number, &self.experience, ctx);
+    }
+}
+
+/// One episode at a time is a crowd of one.
 impl<O: Clone, A: Clone, L: Learner<O, A, ()>> Actor<O, A> for Flat<O, A, L> {
-    fn begin(&mut self, s: &O, _: &mut Context) {
-        self.memory.clear();
-        self.experience.begin(s);
+    fn begin(&mut self, s: &O, ctx: &mut Context) {
+        self.begin_lane(0, s, ctx);
     }
 
     fn act(&mut self, s: &O, ctx: &mut Context) -> A {
-        let number = self.experience.latest();
-        if self.curious.begins_at(self.experience.length(number)) {
-            self.experience.note(number, &self.memory);
-        }
-        self.curious.act(&mut self.memory, s, ctx)
+        let mut actions = Vec::with_capacity(1);
+        self.act_lanes(&[0], slice::from_ref(s), slice::from_mut(ctx), &mut actions);
+        actions.pop().expect("an action a lane")
     }
 
     fn observe(&mut self, t: &Transition<O, A>, ctx: &mut Context) {
-        self.experience.push(t);
-        self.curious.step(self.experience.latest(), &self.experience, ctx);
+        self.observe_lane(0, t, ctx);
     }
 }
 
@@ -51,6 +78,10 @@ where
 
     fn updates(&self) -> Vec<(&'static str, u64)> {
         vec![("policy", self.curious.updates())]
+    }
+
+    fn crowd(&mut self) -> Option<&mut dyn Crowd<O, A>> {
+        Some(self)
     }
 }
 

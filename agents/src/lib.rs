@@ -14,6 +14,7 @@ pub mod episode;
 pub mod evaluate;
 pub mod experience;
 pub mod flat;
+pub mod lanes;
 pub mod lspi;
 pub mod nets;
 pub mod noise;
@@ -32,6 +33,7 @@ pub use episode::{Summary, episode};
 pub use evaluate::Evaluator;
 pub use experience::{Clip, Experience, Lesson};
 pub use flat::Flat;
+pub use lanes::{Crowd, round};
 pub use novelty::Novelty;
 pub use pace::Pace;
 pub use practice::Practice;
@@ -112,6 +114,11 @@ pub trait Agent<O, A>: Actor<O, A> + Checkpoint {
 
     /// Learning steps (minibatch updates) made so far, by name of the network.
     fn updates(&self) -> Vec<(&'static str, u64)>;
+
+    /// The agent as one that learns from several episodes side by side; none where it cannot.
+    fn crowd(&mut self) -> Option<&mut dyn Crowd<O, A>> {
+        None
+    }
 }
 
 /// One of several episodes that go on side by side: what one actor has in it.

@@ -116,12 +116,15 @@ impl Run {
             if stop.load(Ordering::Relaxed) {
                 break Ended::Interrupted;
             }
-            let episode_began = Instant::now();
-            let metrics = self.session.train()?;
-            let seconds = episode_began.elapsed().as_secs_f64();
-            self.folder.append(&metrics, seconds)?;
+            let round_began = Instant::now();
+            let round = self.session.train()?;
+            let steps: u32 = round.iter().map(|metrics| metrics.steps).sum();
+            let pace = round_began.elapsed().as_secs_f64() / f64::from(steps);
+            for metrics in &round {
+                self.folder.append(metrics, pace * f64::from(metrics.steps))?;
+                watch(metrics);
+            }
             self.log_goals()?;
-            watch(&metrics);
             if self.session.progress().0 - saved >= self.config.settings.checkpoint_every {
                 saved = self.save()?;
             }

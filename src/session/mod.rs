@@ -39,11 +39,11 @@ pub struct EpisodeMetrics {
     pub reward: f32,
     /// Whether the task was done.
     pub success: bool,
-    /// Learned skills after it.
+    /// Learned skills after its round.
     pub skills: usize,
     /// Steps of it that learned skills took.
     pub skill_steps: u32,
-    /// Updates made so far, by network.
+    /// Updates made up to and with its round, by network.
     pub updates: std::collections::BTreeMap<String, u64>,
     /// Why the simulator gave up on the episode, when it did; it was truncated then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -116,11 +116,11 @@ pub trait Session {
     /// What is known of the environment.
     fn spec(&self) -> &Spec;
 
-    /// Trains for one episode.
+    /// Trains for a round: an episode a lane.
     ///
     /// # Errors
     /// The action that the environment refused.
-    fn train(&mut self) -> Result<EpisodeMetrics, Refused>;
+    fn train(&mut self) -> Result<Vec<EpisodeMetrics>, Refused>;
 
     /// Episodes trained so far, and steps of the environment in them.
     fn progress(&self) -> (u64, u64);
@@ -177,16 +177,38 @@ pub fn build(config: &Config) -> Result<Box<dyn Session>, ConfigError> {
     if entry.annotated.is_some() && entry.continuous.is_none() && entry.discrete.is_none() {
         let made = settings.world.with_options(|o| registry::make_annotated(&settings.environment, o))?;
         return match made {
-            AnyAnnotated::Vectors(env) => annotated(env, config),
+            AnyAnnotated::Vectors(env) => annotated(vec![env], config),
             AnyAnnotated::Frames(_) => Err(blind(settings)),
         };
     }
     match environment(settings)? {
-        AnyEnvironment::Vectors(env) => continuous(env, config),
-        AnyEnvironment::Choices(env) => discrete(env, config),
+        AnyEnvironment::Vectors(env) => {
+            let same = |env| if let AnyEnvironment::Vectors(env) = env { Some(env as _) } else { None };
+            continuous(lanes::<BoxedEnvironment<Vector, Vector>>(env, settings, same)?, config)
+        }
+        AnyEnvironment::Choices(env) => {
+            let same = |env| if let AnyEnvironment::Choices(env) = env { Some(env as _) } else { None };
+            discrete(lanes::<BoxedEnvironment<Vector, usize>>(env, settings, same)?, config)
+        }
         AnyEnvironment::Frames(_) if entry.pictured.is_none() => Err(blind(settings)),
-        AnyEnvironment::Frames(env) => pictured(env, config),
+        AnyEnvironment::Frames(env) => {
+            let same = |env| if let AnyEnvironment::Frames(env) = env { Some(env as _) } else { None };
+            pictured(lanes::<BoxedEnvironment<Frame, usize>>(env, settings, same)?, config)
+        }
     }
+}
+
+/// The environments of all lanes, of which there is the first. `same` takes another one for what they all are.
+fn lanes<T>(
+    first: T,
+    settings: &Settings,
+    same: fn(AnyEnvironment) -> Option<T>,
+) -> Result<Vec<T>, ConfigError> {
+    let mut all = vec![first];
+    for _ in 1..settings.lanes {
+        all.extend(same(environment(settings)?));
+    }
+    Ok(all)
 }
 
 /// What is said to an agent that reads no pictures where there are only those.
@@ -220,26 +242,27 @@ pub fn world(name: &str, own: &World) -> Result<AnyEnvironment, ConfigError> {
     own.with_options(|options| registry::make_with(name, options))
 }
 
-/// Builds the session of an environment of your own, with continuous actions.
+/// Builds the session of environments of your own, with continuous actions: one, or as many alike as there are
+/// [`Settings::lanes`].
 ///
 /// # Errors
-/// [`ConfigError`] when the agent is unknown, or cannot act with such actions.
+/// [`ConfigError`] when the agent is unknown, or cannot act with such actions or in several lanes.
 pub fn continuous(
-    env: BoxedEnvironment<Vector, Vector>,
+    envs: Vec<BoxedEnvironment<Vector, Vector>>,
     config: &Config,
 ) -> Result<Box<dyn Session>, ConfigError> {
-    pair(env, config, |entry| entry.continuous)
+    pair(envs, config, |entry| entry.continuous)
 }
 
-/// Builds the session of an environment of your own, whose actions are choices.
+/// Builds the session of environments of your own, whose actions are choices.
 ///
 /// # Errors
 /// As [`continuous`].
 pub fn discrete(
-    env: BoxedEnvironment<Vector, usize>,
+    envs: Vec<BoxedEnvironment<Vector, usize>>,
     config: &Config,
 ) -> Result<Box<dyn Session>, ConfigError> {
-    pair(env, config, |entry| entry.discrete)
+    pair(envs, config, |entry| entry.discrete)
 }
 
 /// Builds the session of an environment of your own that tells which proto-goals hold, and whose actions are choices.
@@ -247,10 +270,10 @@ pub fn discrete(
 /// # Errors
 /// As [`continuous`].
 pub fn annotated(
-    env: BoxedEnvironment<Annotated<Vector>, usize>,
+    envs: Vec<BoxedEnvironment<Annotated<Vector>, usize>>,
     config: &Config,
 ) -> Result<Box<dyn Session>, ConfigError> {
-    pair(env, config, |entry| entry.annotated)
+    pair(envs, config, |entry| entry.annotated)
 }
 
 /// Builds the session of an environment of your own that is seen as pictures, and whose actions are choices.
@@ -258,17 +281,17 @@ pub fn annotated(
 /// # Errors
 /// As [`continuous`].
 pub fn pictured(
-    env: BoxedEnvironment<Frame, usize>,
+    envs: Vec<BoxedEnvironment<Frame, usize>>,
     config: &Config,
 ) -> Result<Box<dyn Session>, ConfigError> {
-    pair(env, config, |entry| entry.pictured)
+    pair(envs, config, |entry| entry.pictured)
 }
 
 /// An environment with observations of type `O` and actions of type `A`.
 pub type BoxedEnvironment<O, A> = Box<dyn Environment<Observation = O, Action = A> + Send>;
 
 fn pair<O: Seen + 'static, A: Clone + Into<Action> + 'static>(
-    env: BoxedEnvironment<O, A>,
+    envs: Vec<BoxedEnvironment<O, A>>,
     config: &Config,
     of: fn(&AgentEntry) -> Option<Build<O, A>>,
 ) -> Result<Box<dyn Session>, ConfigError> {
@@ -282,6 +305,23 @@ fn pair<O: Seen + 'static, A: Clone + Into<Action> + 'static>(
         )));
     };
     let seed = Seed(settings.seed);
-    let agent = build(env.spec(), &config.agent, settings.backend, seed)?;
-    Ok(Box::new(Pair::new(env, agent, seed)))
+    let mut agent = build(envs[0].spec(), &config.agent, settings.backend, seed)?;
+    if settings.lanes > 1 && agent.crowd().is_none() {
+        let usual = |e: &&AgentEntry| {
+            of(e).and_then(|build| build(envs[0].spec(), &(e.defaults)(), settings.backend, seed).ok())
+        };
+        let able = assembly::agents().filter(|e| usual(e).is_some_and(|mut agent| agent.crowd().is_some()));
+        let why = format!(
+            "lanes is {}, and agent `{}` lives one episode at a time; set lanes = 1, or take an agent that lives several: {}",
+            settings.lanes,
+            settings.agent,
+            able.map(|e| e.name).collect::<Vec<_>>().join(", ")
+        );
+        return Err(ConfigError::Impossible { table: "the run's settings".into(), why });
+    }
+    if envs.len() as u64 != settings.lanes {
+        let why = format!("lanes is {}, and there are {} environments", settings.lanes, envs.len());
+        return Err(ConfigError::Impossible { table: "the run's settings".into(), why });
+    }
+    Ok(Box::new(Pair::new(envs, agent, seed)))
 }

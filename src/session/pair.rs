@@ -1,6 +1,8 @@
-//! An agent and its environment, of kinds that are known.
+//! An agent and its environments, of kinds that are known.
 
-use inroads_agents::{Actor, Bag, Context, Corrupt, episode};
+use std::collections::BTreeMap;
+
+use inroads_agents::{Actor, Bag, Context, Corrupt, Summary, Transition, episode, lanes::Alone, round};
 use inroads_discovery::record::{GoalRecord, GraphRecord, PlanRecord, Query, SkillRecord};
 use inroads_envs::{Annotated, Frame, Refused, Seed, Spec};
 
@@ -50,7 +52,8 @@ impl Seen for Annotated<Vector> {
 }
 
 pub(super) struct Pair<O, A> {
-    env: BoxedEnvironment<O, A>,
+    /// One a lane, the first for evaluations too.
+    envs: Vec<BoxedEnvironment<O, A>>,
     agent: BoxedAgent<O, A>,
     seed: Seed,
     episodes: u64,
@@ -58,45 +61,54 @@ pub(super) struct Pair<O, A> {
 }
 
 impl<O: Seen, A: Clone> Pair<O, A> {
-    pub(super) fn new(env: BoxedEnvironment<O, A>, agent: BoxedAgent<O, A>, seed: Seed) -> Self {
-        Self { env, agent, seed, episodes: 0, env_steps: 0 }
+    pub(super) fn new(envs: Vec<BoxedEnvironment<O, A>>, agent: BoxedAgent<O, A>, seed: Seed) -> Self {
+        Self { envs, agent, seed, episodes: 0, env_steps: 0 }
     }
 
     /// Begins evaluation episode number `index`; its first observation.
     fn first(&mut self, index: u64) -> O {
         let mut first = O::default();
-        self.env.reset(self.seed.number("evaluate-start", index));
-        self.env.observe(&mut first);
+        self.envs[0].reset(self.seed.number("evaluate-start", index));
+        self.envs[0].observe(&mut first);
         first
     }
 }
 
 impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
     fn spec(&self) -> &Spec {
-        self.env.spec()
+        self.envs[0].spec()
     }
 
-    fn train(&mut self) -> Result<EpisodeMetrics, Refused> {
-        let number = self.episodes;
-        let mut ctx = Context::training(self.seed, number);
-        let mut skill_steps = 0;
-        let start = self.seed.number("train-start", number);
-        let summary = episode(&mut *self.env, &mut *self.agent, start, &mut ctx, |_, source| {
-            skill_steps += u32::from(source > 0);
-        })?;
-        self.episodes += 1;
-        self.env_steps += u64::from(summary.steps);
-        Ok(EpisodeMetrics {
-            episode: number,
-            env_steps: self.env_steps,
-            steps: summary.steps,
-            reward: summary.reward,
-            success: summary.success,
-            skills: self.agent.skills().len(),
-            skill_steps,
-            updates: self.agent.updates().into_iter().map(|(name, n)| (name.to_owned(), n)).collect(),
-            fault: summary.fault,
-        })
+    fn train(&mut self) -> Result<Vec<EpisodeMetrics>, Refused> {
+        let numbers = self.episodes..self.episodes + self.envs.len() as u64;
+        let starts: Vec<_> = numbers.clone().map(|n| self.seed.number("train-start", n)).collect();
+        let mut ctxs: Vec<_> = numbers.clone().map(|n| Context::training(self.seed, n)).collect();
+        let mut skill_steps = vec![0; self.envs.len()];
+        let watch =
+            |lane: usize, _: &Transition<'_, O, A>, source| skill_steps[lane] += u32::from(source > 0);
+        let summaries = match self.agent.crowd() {
+            Some(crowd) => round(&mut self.envs, crowd, &starts, &mut ctxs, watch)?,
+            None => round(&mut self.envs, &mut Alone(&mut *self.agent), &starts, &mut ctxs, watch)?,
+        };
+        let updates: BTreeMap<_, _> =
+            self.agent.updates().into_iter().map(|(name, n)| (name.to_owned(), n)).collect();
+        let skills = self.agent.skills().len();
+        let line = |((number, summary), skill_steps): ((u64, Summary), u32)| {
+            self.episodes += 1;
+            self.env_steps += u64::from(summary.steps);
+            EpisodeMetrics {
+                episode: number,
+                env_steps: self.env_steps,
+                steps: summary.steps,
+                reward: summary.reward,
+                success: summary.success,
+                skills,
+                skill_steps,
+                updates: updates.clone(),
+                fault: summary.fault,
+            }
+        };
+        Ok(numbers.zip(summaries).zip(skill_steps).map(line).collect())
     }
 
     fn progress(&self) -> (u64, u64) {
@@ -112,7 +124,7 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
         let mut ctx = Context::evaluation(self.seed, index);
         let start = self.seed.number("evaluate-start", index);
         let (mut path, mut skills, mut actions, mut covered) = (Vec::new(), Vec::new(), Vec::new(), false);
-        let summary = episode(&mut *self.env, &mut *actor, start, &mut ctx, |t, source| {
+        let summary = episode(&mut *self.envs[0], &mut *actor, start, &mut ctx, |t, source| {
             if skills.is_empty() {
                 path.extend(t.before.seen().cloned());
                 covered = self.agent.members(t.before).contains(&true);
@@ -139,7 +151,7 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
     fn plan(&mut self, from: &Spot, to: &Spot) -> Result<PlanRecord, PlanError> {
         let first = self.first(0);
         let graph = self.agent.graph().ok_or(PlanError::NoGraph)?;
-        let [from_place, to_place] = [from, to].map(|spot| spot.located(&first, &graph, self.env.spec()));
+        let [from_place, to_place] = [from, to].map(|spot| spot.located(&first, &graph, self.envs[0].spec()));
         let (from_place, to_place) = (from_place?, to_place?);
         if let Located::State(s, _) = &from_place
             && to_place.holds(&*self.agent, s)
@@ -153,11 +165,11 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
     fn travel(&mut self, from: &Spot, to: &Spot, index: u64) -> Result<Travelled, PlanError> {
         let first = self.first(index);
         let graph = self.agent.graph().ok_or(PlanError::NoGraph)?;
-        let [from, to] = [from, to].map(|spot| spot.located(&first, &graph, self.env.spec()));
+        let [from, to] = [from, to].map(|spot| spot.located(&first, &graph, self.envs[0].spec()));
         let mut journey = Journey::new(&*self.agent, [from?, to?])?;
         let mut ctx = Context::evaluation(self.seed, index);
         let start = self.seed.number("evaluate-start", index);
-        let summary = episode(&mut *self.env, &mut journey, start, &mut ctx, |_, _| ())?;
+        let summary = episode(&mut *self.envs[0], &mut journey, start, &mut ctx, |_, _| ())?;
         let [departed, arrived] = journey.reached();
         Ok(Travelled { departed, arrived, summary })
     }

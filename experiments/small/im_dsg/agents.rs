@@ -1,5 +1,5 @@
-//! Who is compared, as tuned on DoorKey-6x6 (`tuning`). All have the same table: returns of five steps, eight clips an
-//! update, an update a step, a discount of 0.97, all of their steps in the replay.
+//! Who is compared, as tuned on DoorKey-6x6 (`tuning`), each with the returns that suit it. All have the same table: eight
+//! clips an update, an update a step, a discount of 0.97, all of their steps in the replay.
 
 use inroads::{
     agents::{Curious, Flat, Pace, Practice, Replay, TabularQ, novelty::Counts, tabular::TabularConfig},
@@ -27,17 +27,19 @@ pub(crate) const AGENTS: [Entrant; 4] = [
     },
     Entrant {
         name: "counts",
-        build: |spec| flat(spec, &Simple { rate: 0.1, initial: 0.2, weight: 0.01, ..Simple::default() }),
+        build: |spec| flat(spec, &Simple { rate: 0.1, weight: 0.1, ..Simple::default() }),
     },
     Entrant {
         name: "epsilon-greedy",
-        build: |spec| flat(spec, &Simple { initial: 0.2, ..Simple::default() }),
+        build: |spec| flat(spec, &Simple { initial: 0.5, returns: 3, ..Simple::default() }),
     },
 ];
 
-/// IM-DSG as tuned: the defaults of `inroads train im-dsg`.
+/// IM-DSG as tuned.
 pub(crate) fn ours(planner: PlannerKind) -> ImDsgConfig {
-    ImDsgConfig { planner, ..ImDsgConfig::default() }
+    let mut config = ImDsgConfig { planner, ..ImDsgConfig::default() };
+    (config.novelty.weight, config.explorer.explore_for, config.frontier.returns) = (0.003, 40, 1);
+    config
 }
 
 /// What is tuned of Q-learning.
@@ -50,11 +52,21 @@ pub(crate) struct Simple {
     pub(crate) weight: f32,
     /// Whether the mean of all bonuses is taken from each.
     pub(crate) centred: bool,
+    /// Steps of returns.
+    pub(crate) returns: u32,
 }
 
 impl Default for Simple {
     fn default() -> Self {
-        Self { rate: 0.5, epsilon: 0.1, initial: 0.0, weight: 0.0, centred: true }
+        Self { rate: 0.5, epsilon: 0.1, initial: 0.0, weight: 0.0, centred: true, returns: 5 }
+    }
+}
+
+impl std::fmt::Display for Simple {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { rate, epsilon, initial, weight, centred, .. } = self;
+        write!(f, "rate {rate}, epsilon {epsilon}, begins at {initial}, b = {weight}")?;
+        f.write_str(if *weight > 0.0 && !centred { ", not centred" } else { "" })
     }
 }
 
@@ -64,11 +76,11 @@ const CAPACITY: usize = 200_000;
 /// Q-learning, with a bonus for counts if it weighs anything.
 pub(crate) fn flat(spec: &Spec, simple: &Simple) -> Boxed {
     let Space::Discrete(choices) = spec.action else { unreachable!("these worlds have choices") };
-    let Simple { rate, epsilon, initial, weight, centred } = *simple;
+    let Simple { rate, epsilon, initial, weight, centred, returns } = *simple;
     let config = TabularConfig { rate, epsilon, initial, discount: 0.97, ..TabularConfig::default() };
     let pace = Pace { updates_per_step: 1.0, warm_up: config.batch };
     let table = TabularQ::new(choices, &config);
-    let curious = Curious::new(table.clone(), Practice::new(Replay::new(CAPACITY).spanning(5), pace));
+    let curious = Curious::new(table.clone(), Practice::new(Replay::new(CAPACITY).spanning(returns), pace));
     let curious = if weight > 0.0 {
         curious.with_novelty(Box::new(Counts::default()), weight).centred(centred).sober(table)
     } else {

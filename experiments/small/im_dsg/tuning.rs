@@ -1,7 +1,8 @@
-//! The tuning budget: the same number of configurations for everybody, on DoorKey-6x6, on seeds of their own.
+//! The tuning budget: the same number of configurations for everybody, on DoorKey-6x6, on seeds of their own. Each is tried
+//! with returns of one, three and five steps of whatever learns the task's reward.
 
 use inroads::{
-    assembly::{graphs::ImDsgConfig, parts::PlannerKind},
+    assembly::graphs::{ImDsgConfig, im_dsg},
     envs::Spec,
     statistics::median,
 };
@@ -9,7 +10,7 @@ use serde::Serialize;
 
 use super::{
     Boxed,
-    agents::{Simple, flat, ours},
+    agents::{Simple, flat},
     train,
     worlds::WORLDS,
 };
@@ -17,11 +18,13 @@ use crate::{
     Options,
     support::{Done, over_seeds, write},
 };
-use inroads::assembly::graphs::im_dsg;
 
 /// Seeds a configuration; the first of them, away from those of the comparison.
 const SEEDS: u64 = 4;
 const FIRST: u64 = 1_000;
+
+/// Steps of returns that are tried.
+const RETURNS: [u32; 3] = [1, 3, 5];
 
 /// What a configuration changes of the defaults.
 type Change = fn(&mut ImDsgConfig);
@@ -30,13 +33,17 @@ type Change = fn(&mut ImDsgConfig);
 struct Row {
     agent: &'static str,
     configuration: String,
+    returns: u32,
     median_steps: f64,
     solved: usize,
 }
 
 pub(crate) fn run(options: &Options) -> Done {
     let mut rows = Vec::new();
-    let mut one = |agent: &'static str, configuration: String, build: &(dyn Fn(&Spec) -> Boxed + Sync)| {
+    let mut one = |agent: &'static str,
+                   configuration: String,
+                   returns: u32,
+                   build: &(dyn Fn(&Spec) -> Boxed + Sync)| {
         let runs = over_seeds(options.seeds.unwrap_or(SEEDS), |seed| {
             let mut env = WORLDS[0].make(FIRST + seed);
             let mut agent = build(env.spec());
@@ -45,8 +52,8 @@ pub(crate) fn run(options: &Options) -> Done {
         let steps: Vec<_> = runs.iter().map(|run| run.solved as f64).collect();
         let solved = runs.iter().filter(|run| run.ever).count();
         let median_steps = median(&steps).unwrap_or(f64::NAN);
-        println!("{agent:16} {median_steps:8.0} steps, {solved} solved: {configuration}");
-        rows.push(Row { agent, configuration, median_steps, solved });
+        println!("{agent:16} {median_steps:8.0} steps, {solved} solved: {returns}, {configuration}");
+        rows.push(Row { agent, configuration, returns, median_steps, solved });
     };
     let simple = Simple::default();
     let greedy = [
@@ -58,9 +65,15 @@ pub(crate) fn run(options: &Options) -> Done {
         Simple { initial: 0.5, ..simple },
         Simple { initial: 0.8, ..simple },
     ];
-    for simple in greedy {
-        one("epsilon-greedy", format!("{simple:?}"), &|spec| flat(spec, &simple));
-    }
+    let mut tables = |agent, configurations: &[Simple]| {
+        for simple in configurations {
+            let what = simple.to_string();
+            for returns in RETURNS {
+                one(agent, what.clone(), returns, &|spec| flat(spec, &Simple { returns, ..*simple }));
+            }
+        }
+    };
+    tables("epsilon-greedy", &greedy);
     let bonus = Simple { rate: 0.1, weight: 0.01, ..simple };
     let counts = [
         bonus,
@@ -71,9 +84,7 @@ pub(crate) fn run(options: &Options) -> Done {
         Simple { initial: 0.2, ..bonus },
         Simple { centred: false, ..bonus },
     ];
-    for simple in counts {
-        one("counts", format!("{simple:?}"), &|spec| flat(spec, &simple));
-    }
+    tables("counts", &counts);
     let changes: [(&str, Change); 7] = [
         ("b = 0.01, H = 20", |_| {}),
         ("b = 0.003", |c| c.novelty.weight = 0.003),
@@ -88,9 +99,12 @@ pub(crate) fn run(options: &Options) -> Done {
         }),
     ];
     for (what, change) in changes {
-        let mut config = ours(PlannerKind::AbstractMdp);
-        change(&mut config);
-        one("IM-DSG", what.into(), &|spec| Box::new(im_dsg(spec, &config)));
+        for returns in RETURNS {
+            let mut config = ImDsgConfig::default();
+            change(&mut config);
+            config.frontier.returns = returns;
+            one("IM-DSG", what.into(), returns, &|spec| Box::new(im_dsg(spec, &config)));
+        }
     }
     write(options, "im-dsg-tuning", &rows)
 }
