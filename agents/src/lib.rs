@@ -1,4 +1,4 @@
-//! Learners with no notion of options: replay, networks on Burn, DDPG, double DQN, tables, policy evaluation, novelty,
+//! Learners with no notion of options: replay, networks on Burn, DDPG, the DQN family, tables, policy evaluation, novelty,
 //! support vector machines.
 //!
 //! Burn stands in this room only, and is compiled once: rows of numbers in, rows of numbers out.

@@ -7,6 +7,7 @@
 mod abstracting;
 mod chaining;
 mod deep_graphs;
+mod deep_q;
 mod flat;
 pub mod graphs;
 mod initiation;
@@ -63,6 +64,7 @@ pub fn agents() -> impl Iterator<Item = &'static AgentEntry> {
         proto::ENTRIES,
         abstracting::ENTRIES,
         flat::ENTRIES,
+        deep_q::ENTRIES,
     ]
     .into_iter()
     .flatten()
