@@ -6,6 +6,8 @@
 
 #![allow(clippy::print_stdout)] // what the command is for
 
+mod r2d2_frames;
+mod recall;
 #[path = "../support.rs"]
 mod support;
 
@@ -17,7 +19,7 @@ use clap::Parser;
 type Experiment = fn(&Options) -> support::Done;
 
 /// Experiments by name.
-const EXPERIMENTS: &[(&str, Experiment)] = &[];
+const EXPERIMENTS: &[(&str, Experiment)] = &[("r2d2-frames", r2d2_frames::run), ("recall", recall::run)];
 
 /// Runs one experiment, or all of them.
 #[derive(Debug, Parser)]

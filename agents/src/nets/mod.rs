@@ -1,7 +1,7 @@
 //! Networks on Burn: rows of numbers in, rows of numbers out.
 //!
 //! Burn is named in this folder only. Learners see [`Backend`] and one struct of networks each, `ActorCritic`,
-//! `QNetwork` and `ProbabilityNet`, which know how to act and how to make one step, but not towards what.
+//! `QNetwork`, `RecurrentNet` and `ProbabilityNet`, which know how to act and how to make one step, but not towards what.
 //!
 //! Modules live on a plain device, so that acting records no graph; learning makes a tracked clone of them,
 //! drops it after the backward pass, and then nothing else holds the numbers and they change in place.
@@ -11,17 +11,22 @@ mod adam;
 mod device;
 mod dueling;
 mod init;
+mod lstm;
 mod mlp;
 mod probability;
 mod q_network;
+mod recurrent;
+mod squash;
 mod target;
 mod torso;
 
 pub(crate) use actor_critic::{ActorCritic, Shape};
 pub(crate) use adam::Step;
 pub use device::{Backend, NoBackend};
+pub(crate) use lstm::State;
 pub(crate) use probability::ProbabilityNet;
 pub(crate) use q_network::QNetwork;
+pub(crate) use recurrent::{RecurrentNet, RecurrentShape, Steps};
 pub use torso::TorsoConfig;
 
 use std::mem::take;
