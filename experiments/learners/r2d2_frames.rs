@@ -11,10 +11,11 @@ use std::{sync::Arc, time::Instant};
 use inroads::{
     agents::{
         Agent, Context, Curious, Flat, Pace, Practice, Replay,
+        dqn::Epsilon,
         encode::Patches,
         episode,
         nets::{Backend, TorsoConfig},
-        r2d2::{ExplorationConfig, R2d2, R2d2Config},
+        r2d2::{R2d2, R2d2Config},
         replay::PriorityConfig,
     },
     envs::{
@@ -111,12 +112,13 @@ fn config() -> R2d2Config {
     R2d2Config {
         torso: TorsoConfig { hidden: vec![128], ..TorsoConfig::default() },
         memory: 64,
-        hidden: 64,
+        head: 64,
         rate: 5e-4,
+        adam_epsilon: 1e-5,
         discount: 0.99,
         batch: 16,
-        target_every: 100,
-        exploration: ExplorationConfig { start: 1.0, end: 0.1, decay_updates: 2000, rungs: 0 },
+        follow_every: 100,
+        epsilon: Epsilon { start: 1.0, end: 0.1, updates: 2000 },
         ..R2d2Config::default()
     }
 }

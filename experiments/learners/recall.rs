@@ -12,10 +12,11 @@ use inroads::{
     agents::{
         Actor, Agent, Bag, Checkpoint, Clip, Context, Corrupt, Curious, Flat, Learned, Learner, Memory, Pace,
         Practice, Replay, Transition,
+        dqn::Epsilon,
         encode::Scaled,
         episode,
         nets::{Backend, TorsoConfig},
-        r2d2::{ExplorationConfig, R2d2, R2d2Config},
+        r2d2::{R2d2, R2d2Config},
     },
     envs::{Environment, Seed, recall::Recall},
     statistics::{Estimate, mean_interval, median},
@@ -146,12 +147,13 @@ fn config() -> R2d2Config {
     R2d2Config {
         torso: TorsoConfig { hidden: vec![32], ..TorsoConfig::default() },
         memory: 32,
-        hidden: 32,
+        head: 32,
         rate: 2e-3,
+        adam_epsilon: 1e-5,
         discount: 0.99,
         batch: 16,
-        target_every: 50,
-        exploration: ExplorationConfig { start: 1.0, end: 1.0, decay_updates: 0, rungs: 0 },
+        follow_every: 50,
+        epsilon: Epsilon { start: 1.0, end: 1.0, updates: 1 },
         ..R2d2Config::default()
     }
 }

@@ -12,6 +12,7 @@ pub mod graphs;
 mod initiation;
 pub mod parts;
 mod proto;
+mod recurrent;
 mod shared;
 
 use inroads_agents::nets::Backend;
@@ -61,6 +62,7 @@ pub fn agents() -> impl Iterator<Item = &'static AgentEntry> {
         proto::ENTRIES,
         abstracting::ENTRIES,
         flat::ENTRIES,
+        recurrent::ENTRIES,
     ]
     .into_iter()
     .flatten()

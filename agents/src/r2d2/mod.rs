@@ -24,13 +24,14 @@ mod remembered;
 mod targets;
 
 pub use config::R2d2Config;
-pub use exploration::{ExplorationConfig, ladder};
+pub use exploration::ladder;
 
 use std::sync::Arc;
 
 use inroads_envs::Rng;
 use rand::RngExt;
 
+use self::exploration::epsilon;
 use self::packing::Packing;
 use self::remembered::Remembered;
 use self::targets::{Returns, Scale, double, priority, targets};
@@ -84,7 +85,7 @@ impl<O> R2d2<O> {
             torso: &config.torso,
             memory: config.memory,
             goal: goal_width,
-            hidden: config.hidden,
+            hidden: config.head,
             choices,
         };
         let nets = RecurrentNet::new(shape, backend, rng);
@@ -163,14 +164,13 @@ impl<O, G: Encode> Learner<O, usize, G> for R2d2<O> {
         let found = lanes.iter_mut().zip(values.chunks_exact(self.choices)).zip(states);
         let act = |((lane, values), (hidden, cell)): ((&mut Lane<'_, O, G>, &[f32]), (&[f32], &[f32]))| {
             let ctx = &mut *lane.ctx;
-            let rung = match (Remembered::read(lane.memory, width), self.config.exploration.rungs) {
+            let rung = match (Remembered::read(lane.memory, width), self.config.rungs) {
                 (Some(remembered), _) => remembered.rung,
                 (None, 0) => 0,
                 (None, rungs) => ctx.acting.random_range(0..rungs),
             };
             // Drawn behind the pass: the memory goes on whoever chooses.
-            let random = ctx.explore
-                && ctx.acting.random::<f32>() < self.config.exploration.epsilon(rung, self.updates);
+            let random = ctx.explore && ctx.acting.random::<f32>() < self.epsilon(rung);
             let choice = match random {
                 true => ctx.acting.random_range(0..self.choices),
                 false => argmax(values, &mut ctx.acting),
@@ -233,10 +233,11 @@ impl<O, G: Encode> Learner<O, usize, G> for R2d2<O> {
             }
             errors[i] = priority(&own, self.config.greatest_share);
         }
-        let step = Step { rate: self.config.rate, decay: 0.0, clip: self.config.gradient_clip };
+        let R2d2Config { rate, adam_epsilon: epsilon, gradient_clip: clip, .. } = self.config;
+        let step = Step { rate, epsilon, clip, ..Step::default() };
         self.nets.back(pass, &packing.sizes, slopes, step);
         self.updates += 1;
-        if self.updates.is_multiple_of(self.config.target_every) {
+        if self.updates.is_multiple_of(self.config.follow_every) {
             self.nets.catch_up();
         }
         Learned { loss, errors }
@@ -248,6 +249,10 @@ impl<O, G: Encode> Learner<O, usize, G> for R2d2<O> {
 }
 
 impl<O> R2d2<O> {
+    fn epsilon(&self, rung: u32) -> f32 {
+        epsilon(self.config.epsilon, self.config.rungs, rung, self.updates)
+    }
+
     fn scale(&self) -> Scale {
         if self.config.rescale { Scale::Rescaled } else { Scale::Plain }
     }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::dqn::Epsilon;
 use crate::experience::{Pay, Rewards};
 use crate::{Bag, Checkpoint};
 use inroads_envs::Seed;
@@ -35,13 +36,14 @@ fn small() -> R2d2Config {
     R2d2Config {
         torso: crate::nets::TorsoConfig { hidden: vec![16], ..Default::default() },
         memory: 16,
-        hidden: 16,
+        head: 16,
         rate: 5e-3,
+        adam_epsilon: 1e-8,
         discount: 0.9,
         returns: 2,
         batch: 4,
-        target_every: 20,
-        exploration: ExplorationConfig { start: 0.3, end: 0.3, ..Default::default() },
+        follow_every: 20,
+        epsilon: Epsilon { start: 0.3, end: 0.3, ..Default::default() },
         ..Default::default()
     }
 }
@@ -212,8 +214,7 @@ fn random_choices_are_remembered_and_the_cell_goes_on() {
 
 #[test]
 fn an_episode_keeps_its_rung() {
-    let exploration = ExplorationConfig { rungs: 4, decay_updates: 0, ..Default::default() };
-    let learner = learner(&R2d2Config { exploration, ..small() });
+    let learner = learner(&R2d2Config { rungs: 4, ..small() });
     let seen = walk(1, 5);
     let mut drawn = [0; 4];
     for index in 0..100 {
@@ -359,6 +360,6 @@ fn impossible_settings_are_named() {
     assert!(wrong(R2d2Config { memory: 0, ..small() }).contains("memory"));
     assert!(wrong(R2d2Config { returns: 0, ..small() }).contains("returns"));
     assert!(wrong(R2d2Config { discount: 1.5, ..small() }).contains("discount"));
-    let exploration = ExplorationConfig { end: -1.0, ..Default::default() };
-    assert!(wrong(R2d2Config { exploration, ..small() }).contains("exploration"));
+    let epsilon = Epsilon { end: -1.0, ..Default::default() };
+    assert!(wrong(R2d2Config { epsilon, ..small() }).contains("epsilon: end"));
 }
