@@ -60,6 +60,7 @@ const TRUTH: &[&str] = &["Snapshot", "Render", "Domain", "Drawing", "facts", "ce
 const DOMAINS: &[&str] = &[
     "maze",
     "corridor",
+    "recall",
     "rooms",
     "reacher",
     "manipulation",

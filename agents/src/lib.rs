@@ -21,6 +21,7 @@ pub mod noise;
 pub mod novelty;
 mod pace;
 mod practice;
+pub mod r2d2;
 pub mod replay;
 mod running;
 pub mod svm;

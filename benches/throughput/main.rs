@@ -12,6 +12,7 @@ mod learners;
 mod measure;
 mod planning;
 mod processor;
+mod recurrent;
 mod workload;
 mod worlds;
 
@@ -82,6 +83,7 @@ fn run(options: &Options) -> Result<bool, String> {
     let mut workloads = bodies::bodies();
     workloads.extend(worlds::worlds());
     workloads.extend(learners::ddpg());
+    workloads.extend(recurrent::r2d2());
     workloads.extend(evaluator::evaluator());
     workloads.extend(planning::planning());
     if let Some(name) = &options.only {

@@ -23,6 +23,7 @@ mod observation;
 pub mod pinball;
 pub mod probes;
 pub mod reacher;
+pub mod recall;
 pub mod registry;
 mod render;
 pub mod river;

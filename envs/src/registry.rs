@@ -10,8 +10,8 @@ use crate::maze::{
 use crate::world::{AnnotatedWorld, AnyWorld, Layout, Question, See, Wanted};
 use crate::{Annotated, Domain, Environment, Frame, Refused, Spec, Step};
 use crate::{
-    baba, corridor, grid, manipulation, montezuma, pinball, probes, reacher, river, rooms, sokoban, taxi,
-    visual_taxi,
+    baba, corridor, grid, manipulation, montezuma, pinball, probes, reacher, recall, river, rooms, sokoban,
+    taxi, visual_taxi,
 };
 
 /// An environment of one of the kinds of observation and action that there are.
@@ -106,6 +106,7 @@ pub fn entries() -> impl Iterator<Item = &'static Entry> {
         maze::ENTRIES,
         reacher::ENTRIES,
         corridor::ENTRIES,
+        recall::ENTRIES,
         rooms::ENTRIES,
         manipulation::ENTRIES,
         grid::ENTRIES,

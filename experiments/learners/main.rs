@@ -7,6 +7,8 @@
 #![allow(clippy::print_stdout)] // what the command is for
 
 mod dqn;
+mod r2d2_frames;
+mod recall;
 #[path = "../support.rs"]
 mod support;
 
@@ -18,7 +20,11 @@ use clap::Parser;
 type Experiment = fn(&Options) -> support::Done;
 
 /// Experiments by name.
-const EXPERIMENTS: &[(&str, Experiment)] = &[("dqn", dqn::run)];
+const EXPERIMENTS: &[(&str, Experiment)] = &[
+    ("dqn", dqn::run),
+    ("r2d2-frames", r2d2_frames::run),
+    ("recall", recall::run),
+];
 
 /// Runs one experiment, or all of them.
 #[derive(Debug, Parser)]

@@ -13,6 +13,7 @@ pub mod graphs;
 mod initiation;
 pub mod parts;
 mod proto;
+mod recurrent;
 mod shared;
 
 use inroads_agents::nets::Backend;
@@ -65,6 +66,7 @@ pub fn agents() -> impl Iterator<Item = &'static AgentEntry> {
         abstracting::ENTRIES,
         flat::ENTRIES,
         deep_q::ENTRIES,
+        recurrent::ENTRIES,
     ]
     .into_iter()
     .flatten()
