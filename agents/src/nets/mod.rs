@@ -17,7 +17,7 @@ mod q_network;
 mod target;
 mod torso;
 
-pub(crate) use actor_critic::{ActorCritic, Shape};
+pub(crate) use actor_critic::{ActorCritic, Batch, Shape};
 pub(crate) use adam::Step;
 pub use device::{Backend, NoBackend};
 pub(crate) use probability::ProbabilityNet;
