@@ -116,11 +116,7 @@ pub fn relabelled<'a, O, A, G: Goal<O>>(
 }
 
 /// A clip for another goal: up to the first step that attains it, which ends it for good.
-fn relabel<'a, O, A, G: Goal<O>>(
-    clip: &Clip<'a, O, A, G>,
-    goal: &'a G,
-    pay: Pay,
-) -> Clip<'a, O, A, G> {
+fn relabel<'a, O, A, G: Goal<O>>(clip: &Clip<'a, O, A, G>, goal: &'a G, pay: Pay) -> Clip<'a, O, A, G> {
     let hit = (clip.lead + 1..clip.observations.len()).find(|&i| goal.reached(&clip.observations[i]));
     let end = hit.unwrap_or(clip.actions.len());
     // What ended because its own goal was attained would have gone on for another one.

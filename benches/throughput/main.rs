@@ -82,6 +82,7 @@ fn run(options: &Options) -> Result<bool, String> {
     let mut workloads = bodies::bodies();
     workloads.extend(worlds::worlds());
     workloads.extend(learners::ddpg());
+    workloads.extend(learners::td3());
     workloads.extend(evaluator::evaluator());
     workloads.extend(planning::planning());
     if let Some(name) = &options.only {

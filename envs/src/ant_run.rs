@@ -22,7 +22,8 @@ pub(crate) const ENTRIES: &[Entry] = &[Entry {
 }];
 
 const NAME: &str = "ant";
-const ABOUT: &str = "an ant is paid for running forward and for standing, and pays for effort; Gymnasium's Ant-v5";
+const ABOUT: &str =
+    "an ant is paid for running forward and for standing, and pays for effort; Gymnasium's Ant-v5";
 /// Steps an episode of the registry (Ant-v5).
 const LIMIT: u32 = 1000;
 /// What a step pays that ends upright (Ant-v5).

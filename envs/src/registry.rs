@@ -10,8 +10,8 @@ use crate::maze::{
 use crate::world::{AnnotatedWorld, AnyWorld, Layout, Question, See, Wanted};
 use crate::{Annotated, Domain, Environment, Frame, Refused, Spec, Step};
 use crate::{
-    ant_run, baba, corridor, grid, manipulation, montezuma, pinball, probes, reacher, river, rooms, sokoban, taxi,
-    visual_taxi,
+    ant_run, baba, corridor, grid, manipulation, montezuma, pinball, probes, reacher, river, rooms, sokoban,
+    taxi, visual_taxi,
 };
 
 /// An environment of one of the kinds of observation and action that there are.

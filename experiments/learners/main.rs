@@ -8,6 +8,8 @@
 
 #[path = "../support.rs"]
 mod support;
+mod td3_ant;
+mod td3_reacher;
 
 use std::{path::PathBuf, process::ExitCode};
 
@@ -17,7 +19,7 @@ use clap::Parser;
 type Experiment = fn(&Options) -> support::Done;
 
 /// Experiments by name.
-const EXPERIMENTS: &[(&str, Experiment)] = &[];
+const EXPERIMENTS: &[(&str, Experiment)] = &[("td3-ant", td3_ant::run), ("td3-reacher", td3_reacher::run)];
 
 /// Runs one experiment, or all of them.
 #[derive(Debug, Parser)]

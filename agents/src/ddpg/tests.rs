@@ -33,15 +33,12 @@ fn saved(learner: &Ddpg<Vec<f32>>) -> Bag {
 fn bandit(learner: &mut Ddpg<Vec<f32>>, index: u64) -> f32 {
     let mut ctx = Context::training(Seed(7), index);
     let observations = [vec![0.2, -0.4], vec![0.1, 0.9]];
-    let actions: Vec<[Vec<f32>; 1]> =
-        (0..64).map(|_| [vec![ctx.learning.random_range(-1.0..1.0)]]).collect();
+    let actions: Vec<[Vec<f32>; 1]> = (0..64).map(|_| [vec![ctx.learning.random_range(-1.0..1.0)]]).collect();
     let rewards: Vec<_> = actions.iter().map(|action| [-(action[0][0] - 0.3).powi(2)]).collect();
     let clips: Vec<_> = actions
         .iter()
         .zip(&rewards)
-        .map(|(action, reward)| {
-            Clip::new(&observations, action, Rewards::Given(reward), None::<&()>, true)
-        })
+        .map(|(action, reward)| Clip::new(&observations, action, Rewards::Given(reward), None::<&()>, true))
         .collect();
     learner.learn(&clips, &mut ctx).loss
 }
@@ -56,8 +53,7 @@ fn only_a_termination_cuts_the_target() {
     // The third is a truncation, which a clip does not call terminal.
     let observations = [Vec::<f32>::new(), vec![]];
     let rewards = Rewards::Given(&[-1.0]);
-    let clips =
-        [false, true, false].map(|ends| Clip::new(&observations, &[()], rewards, None::<&()>, ends));
+    let clips = [false, true, false].map(|ends| Clip::new(&observations, &[()], rewards, None::<&()>, ends));
     let y = targets(&clips, 0.99, &[1.0, 1.0, 1.0]);
     assert!((y[0] + 0.01).abs() < 1e-6 && y[1] == -1.0 && y[2] == y[0]);
 }

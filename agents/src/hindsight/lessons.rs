@@ -61,8 +61,8 @@ pub fn lessons<O, A, G: Goal<O>>(
 mod tests {
     use super::*;
     use crate::goal::Ground;
-    use inroads_envs::corridor::Corridor;
     use inroads_envs::Environment;
+    use inroads_envs::corridor::Corridor;
 
     #[test]
     fn each_stretch_ends_with_the_subgoal_and_none_begins_in_it() {

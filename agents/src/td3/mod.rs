@@ -14,7 +14,7 @@ use crate::actor_critic::{batch, check, targets};
 use crate::encode::Inputs;
 use crate::nets::{ActorCritic, Backend, Shape, Step};
 use crate::noise::{NoiseConfig, NoiseKind};
-use crate::{Clip, Context, Encode, Encoder, Learned, Learner, Memory, checkpoint};
+use crate::{Clip, Context, Encode, Encoder, Lane, Learned, Learner, Memory, checkpoint};
 
 /// Settings of [`Td3`]. Defaults are the paper's and those of its authors' code (sfujim/TD3), where nothing else is said.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -85,7 +85,9 @@ impl Td3Config {
             ("preactivation", self.preactivation),
         ])?;
         if self.delay == 0 {
-            return Err("delay is 0; the actor learns after every so many updates of the critics, at least 1".into());
+            return Err(
+                "delay is 0; the actor learns after every so many updates of the critics, at least 1".into(),
+            );
         }
         self.noise.check()
     }
@@ -140,6 +142,19 @@ impl<O> Td3<O> {
         self.updates
     }
 
+    /// Changes an action of the actor's as it explores, if it does.
+    fn explore(&self, action: &mut [f32], memory: &mut Memory, ctx: &mut Context) {
+        let Td3Config { noise, random, .. } = &self.config;
+        if !ctx.explore {
+            return;
+        }
+        if self.updates == 0 || (*random > 0.0 && ctx.acting.random::<f32>() < *random) {
+            action.fill_with(|| ctx.acting.random_range(-1.0..=1.0));
+        } else {
+            noise.perturb(action, memory, self.updates, &mut ctx.acting);
+        }
+    }
+
     /// What the clips' first actions turned out to be worth: y = r + γ(1−d) min Q'(s', clip(μ'(s') + noise)).
     fn targets<G: Encode>(&self, clips: &[Clip<O, Vec<f32>, G>], ctx: &mut Context) -> Vec<f32> {
         let after = self.inputs.rows(clips.iter().map(|clip| (clip.last(), clip.goal)));
@@ -151,15 +166,18 @@ impl<O> Td3<O> {
 
 impl<O, G: Encode> Learner<O, Vec<f32>, G> for Td3<O> {
     fn act(&self, memory: &mut Memory, s: &O, goal: Option<&G>, ctx: &mut Context) -> Vec<f32> {
-        let Td3Config { noise, random, .. } = &self.config;
-        if ctx.explore && (self.updates == 0 || (*random > 0.0 && ctx.acting.random::<f32>() < *random)) {
-            return (0..self.actions).map(|_| ctx.acting.random_range(-1.0..=1.0)).collect();
-        }
         let mut action = self.nets.act(self.inputs.rows(std::iter::once((s, goal))));
-        if ctx.explore {
-            noise.perturb(&mut action, memory, self.updates, &mut ctx.acting);
-        }
+        self.explore(&mut action, memory, ctx);
         action
+    }
+
+    fn act_all(&self, lanes: &mut [Lane<'_, O, G>]) -> Vec<Vec<f32>> {
+        let actions = self.nets.act(self.inputs.rows(lanes.iter().map(|lane| (lane.s, lane.goal))));
+        let mut actions: Vec<_> = actions.chunks_exact(self.actions).map(<[f32]>::to_vec).collect();
+        for (action, lane) in actions.iter_mut().zip(lanes) {
+            self.explore(action, lane.memory, lane.ctx);
+        }
+        actions
     }
 
     fn values(&self, _: &Memory, s: &O, goals: &[Option<&G>]) -> Vec<f32> {

@@ -37,8 +37,7 @@ fn weights(learner: &Td3<Vec<f32>>, part: &str) -> Vec<Vec<f32>> {
 fn bandit(learner: &mut Td3<Vec<f32>>, index: u64) -> Learned {
     let mut ctx = Context::training(Seed(7), index);
     let observations = [vec![0.2, -0.4], vec![0.1, 0.9]];
-    let actions: Vec<[Vec<f32>; 1]> =
-        (0..64).map(|_| [vec![ctx.learning.random_range(-1.0..1.0)]]).collect();
+    let actions: Vec<[Vec<f32>; 1]> = (0..64).map(|_| [vec![ctx.learning.random_range(-1.0..1.0)]]).collect();
     let rewards: Vec<_> = actions.iter().map(|action| [-(action[0][0] - 0.3).powi(2)]).collect();
     let clips: Vec<_> = actions
         .iter()
@@ -69,9 +68,8 @@ fn the_target_believes_the_lesser_critic_and_only_a_termination_cuts_it() {
 
     // The third is a truncation, which a clip does not call terminal.
     let (observations, action) = ([vec![0.0, 0.0], vec![0.0, 0.0]], [vec![0.0]]);
-    let clips = [false, true, false].map(|terminal| {
-        Clip::new(&observations, &action, Rewards::Given(&[-1.0]), None::<&()>, terminal)
-    });
+    let clips = [false, true, false]
+        .map(|terminal| Clip::new(&observations, &action, Rewards::Given(&[-1.0]), None::<&()>, terminal));
     let y = learner.targets(&clips, &mut Context::training(Seed(0), 0));
     assert!((y[0] + 0.01).abs() < 1e-6 && y[1] == -1.0 && y[2] == y[0], "{y:?}");
 }
@@ -199,6 +197,27 @@ fn it_explores_uniformly_until_it_has_learned_and_with_noise_then() {
     assert!(greedy(&learner).abs() < 0.1 && wide(&learner) == 0);
     learner.config.random = 0.5;
     assert!((wide(&learner) as i64 - 40).abs() < 23);
+}
+
+#[test]
+fn several_act_together_as_each_would_alone() {
+    let mut learner = learner(&small(), 0);
+    bandit(&mut learner, 0);
+    let states = [vec![0.2, -0.4], vec![0.9, 0.3], vec![-0.5, 0.1]];
+    let contexts =
+        || [Context::training(Seed(0), 1), Context::training(Seed(0), 2), Context::evaluation(Seed(0), 3)];
+    let (mut memories, mut ctxs) = ([const { Memory::new() }; 3], contexts());
+    let mut lanes: Vec<Lane<'_, Vec<f32>, ()>> = memories
+        .iter_mut()
+        .zip(&states)
+        .zip(&mut ctxs)
+        .map(|((memory, s), ctx)| Lane { memory, s, goal: None, ctx })
+        .collect();
+    let together = learner.act_all(&mut lanes);
+    for ((s, ctx), found) in states.iter().zip(&mut contexts()).zip(together) {
+        let alone = learner.act(&mut Memory::new(), s, None::<&()>, ctx);
+        assert!((alone[0] - found[0]).abs() < 1e-5, "{alone:?} {found:?}");
+    }
 }
 
 #[test]

@@ -4,10 +4,7 @@ use inroads_agents::{Lesson, draw, experience::Aim};
 use inroads_envs::{Bits, Rng};
 use serde::{Deserialize, Serialize};
 
-use super::{
-    GoalId, GoalSpace, ProtoConfig,
-    desirable::novelty,
-};
+use super::{GoalId, GoalSpace, ProtoConfig, desirable::novelty};
 use crate::{Outcome, Wanted, hindsight::stretches};
 
 /// How goals are picked among those that a call attained.

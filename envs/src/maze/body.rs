@@ -60,12 +60,7 @@ impl Body {
         Self::among(model, physics, floor, None)
     }
 
-    fn among(
-        model: &Model,
-        physics: Physics,
-        floor: f32,
-        map: Option<&CellMap>,
-    ) -> Result<Self, MazeError> {
+    fn among(model: &Model, physics: Physics, floor: f32, map: Option<&CellMap>) -> Result<Self, MazeError> {
         if model.links.first().is_none_or(|root| root.joint != Joint::Free) {
             return Err(MazeError::Body(format!(
                 "the root of model {:?} is fixed; give its first body a free joint, so that it can walk",
