@@ -1,8 +1,10 @@
 //! From observations to rows of numbers that networks read.
 
+mod inputs;
 mod one_hot;
 mod patches;
 
+pub(crate) use inputs::Inputs;
 pub use one_hot::{OneHot, OneHotError};
 pub use patches::{PatchError, Patches};
 

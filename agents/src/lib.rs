@@ -1,8 +1,10 @@
-//! Learners with no notion of options: replay, networks on Burn, DDPG, the DQN family, tables, policy evaluation, novelty,
-//! support vector machines.
+//! Learners with no notion of options: replay, hindsight, networks on Burn, DDPG, TD3, the DQN family, R2D2, tables, policy
+//! evaluation, novelty, models of dynamics, support vector machines.
 //!
 //! Burn stands in this room only, and is compiled once: rows of numbers in, rows of numbers out.
 
+mod actor_critic;
+pub mod aimed;
 pub mod checkpoint;
 pub mod classify;
 pub mod curious;
@@ -14,6 +16,8 @@ pub mod episode;
 pub mod evaluate;
 pub mod experience;
 pub mod flat;
+pub mod goal;
+pub mod hindsight;
 pub mod lanes;
 pub mod lspi;
 pub mod nets;
@@ -26,7 +30,9 @@ pub mod replay;
 mod running;
 pub mod svm;
 pub mod tabular;
+pub mod td3;
 
+pub use aimed::Aimed;
 pub use checkpoint::{Bag, Checkpoint, Corrupt};
 pub use curious::Curious;
 pub use encode::{Encode, Encoder};
@@ -34,6 +40,7 @@ pub use episode::{Summary, episode};
 pub use evaluate::Evaluator;
 pub use experience::{Clip, Experience, Lesson};
 pub use flat::Flat;
+pub use goal::Goal;
 pub use lanes::{Crowd, round};
 pub use novelty::Novelty;
 pub use pace::Pace;

@@ -84,6 +84,7 @@ fn run(options: &Options) -> Result<bool, String> {
     workloads.extend(worlds::worlds());
     workloads.extend(learners::ddpg());
     workloads.extend(recurrent::r2d2());
+    workloads.extend(learners::td3());
     workloads.extend(evaluator::evaluator());
     workloads.extend(planning::planning());
     if let Some(name) = &options.only {

@@ -8,6 +8,7 @@
 #[cfg(test)]
 extern crate self as inroads_envs;
 
+pub mod ant_run;
 pub mod baba;
 mod capability;
 pub mod certificate;

@@ -11,6 +11,8 @@ mod r2d2_frames;
 mod recall;
 #[path = "../support.rs"]
 mod support;
+mod td3_ant;
+mod td3_reacher;
 
 use std::{path::PathBuf, process::ExitCode};
 
@@ -24,6 +26,8 @@ const EXPERIMENTS: &[(&str, Experiment)] = &[
     ("dqn", dqn::run),
     ("r2d2-frames", r2d2_frames::run),
     ("recall", recall::run),
+    ("td3-ant", td3_ant::run),
+    ("td3-reacher", td3_reacher::run),
 ];
 
 /// Runs one experiment, or all of them.

@@ -27,6 +27,7 @@ pub(super) const ENTRIES: &[AgentEntry] = &[AgentEntry {
     continuous: None,
     discrete: Some(dqn),
     annotated: None,
+    pictured: None,
 }];
 
 /// Settings of `dqn`.

@@ -1,8 +1,7 @@
-//! Flat baselines: one learner for the whole task.
+//! Flat baselines on tables: one learner for the whole task.
 
 use inroads_agents::{
     Curious, Flat, Key, Novelty, Practice, Replay,
-    ddpg::{Ddpg, DdpgConfig},
     nets::Backend,
     novelty::Counts,
     tabular::{TabularConfig, TabularQ},
@@ -14,21 +13,11 @@ use toml::Table;
 use super::{
     AgentEntry, BoxedAgent, Vector,
     parts::{Counted, NoveltyConfig},
-    shared::{MemoryConfig, choices, named, scaled, table, tuned_ddpg},
+    shared::{MemoryConfig, choices, named, table},
 };
 use crate::config::{ConfigError, section};
 
 pub(super) const ENTRIES: &[AgentEntry] = &[
-    AgentEntry {
-        name: "ddpg",
-        about: "the flat baseline: one DDPG policy for the whole task",
-        defaults: || table(&FlatDdpgConfig::default()),
-        check: |t| section::<FlatDdpgConfig>(t.clone(), "ddpg")?.check(),
-        continuous: Some(ddpg),
-        discrete: None,
-        annotated: None,
-        pictured: None,
-    },
     AgentEntry {
         name: "q-learning",
         about: "the flat tabular baseline",
@@ -58,20 +47,6 @@ pub(super) const ENTRIES: &[AgentEntry] = &[
         }),
     },
 ];
-
-/// Settings of `ddpg`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct FlatDdpgConfig {
-    memory: MemoryConfig,
-    policy: DdpgConfig,
-}
-
-impl Default for FlatDdpgConfig {
-    fn default() -> Self {
-        Self { memory: MemoryConfig::default(), policy: tuned_ddpg() }
-    }
-}
 
 /// Settings of `q-learning`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -137,31 +112,11 @@ trait Remembered: Key + Clone + Serialize + DeserializeOwned + 'static {}
 
 impl<O: Key + Clone + Serialize + DeserializeOwned + 'static> Remembered for O {}
 
-impl FlatDdpgConfig {
-    fn check(&self) -> Result<(), ConfigError> {
-        named("memory", self.memory.check())?;
-        named("policy", self.policy.check())
-    }
-}
-
 impl FlatTabularConfig {
     fn check(&self) -> Result<(), ConfigError> {
         named("memory", self.memory.check())?;
         named("policy", self.policy.check())
     }
-}
-
-fn ddpg(
-    spec: &Spec,
-    settings: &Table,
-    backend: Backend,
-    seed: Seed,
-) -> Result<BoxedAgent<Vector, Vector>, ConfigError> {
-    let config: FlatDdpgConfig = section(settings.clone(), "ddpg")?;
-    let mut rng = seed.stream("initialise", 0);
-    let learner = Ddpg::new(scaled(spec), spec.action.len(), &config.policy, backend, &mut rng);
-    let capacity = config.memory.capacity;
-    Ok(Box::new(Flat::new(Curious::new(learner, config.memory.practice()), capacity)))
 }
 
 /// An agent for whatever has keys.

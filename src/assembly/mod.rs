@@ -5,6 +5,7 @@
 //! the constructors, a file a family of agents.
 
 mod abstracting;
+mod actor_critic;
 mod chaining;
 mod deep_graphs;
 mod deep_q;
@@ -64,6 +65,7 @@ pub fn agents() -> impl Iterator<Item = &'static AgentEntry> {
         graphs::ENTRIES,
         proto::ENTRIES,
         abstracting::ENTRIES,
+        actor_critic::ENTRIES,
         flat::ENTRIES,
         deep_q::ENTRIES,
         recurrent::ENTRIES,

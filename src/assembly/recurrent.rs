@@ -24,6 +24,7 @@ pub(super) const ENTRIES: &[AgentEntry] = &[AgentEntry {
     continuous: None,
     discrete: Some(r2d2),
     annotated: None,
+    pictured: None,
 }];
 
 /// Settings of `r2d2`.

@@ -9,8 +9,8 @@
 
 mod actor_critic;
 mod adam;
-mod deep_q;
 mod convolution;
+mod deep_q;
 mod device;
 mod dueling;
 mod init;
@@ -24,7 +24,7 @@ mod squash;
 mod target;
 mod torso;
 
-pub(crate) use actor_critic::{ActorCritic, Shape};
+pub(crate) use actor_critic::{ActorCritic, Batch, Shape};
 pub(crate) use adam::Step;
 pub(crate) use deep_q::{Asked, DeepQ};
 pub use device::{Backend, NoBackend};
@@ -33,8 +33,8 @@ pub(crate) use lstm::State;
 pub(crate) use noisy::head_noise;
 pub(crate) use probability::ProbabilityNet;
 pub(crate) use q_network::QNetwork;
-pub use torso::{TorsoConfig, Vision};
 pub(crate) use recurrent::{RecurrentNet, RecurrentShape, Steps};
+pub use torso::{TorsoConfig, Vision};
 
 use std::mem::take;
 

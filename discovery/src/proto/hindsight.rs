@@ -1,13 +1,10 @@
 //! Which attained goals to learn about in hindsight (thesis 8.4.2).
 
-use inroads_agents::{Lesson, experience::Aim};
+use inroads_agents::{Lesson, draw, experience::Aim};
 use inroads_envs::{Bits, Rng};
 use serde::{Deserialize, Serialize};
 
-use super::{
-    GoalId, GoalSpace, ProtoConfig,
-    desirable::{draw_different, novelty},
-};
+use super::{GoalId, GoalSpace, ProtoConfig, desirable::novelty};
 use crate::{Outcome, Wanted, hindsight::stretches};
 
 /// How goals are picked among those that a call attained.
@@ -34,7 +31,7 @@ pub fn goals(space: &GoalSpace, bits: &[&Bits], config: &ProtoConfig, rng: &mut 
         Relabel::Novel => attained.iter().map(|id| novelty(space.goal(*id))).collect(),
         Relabel::Uniform => vec![1.0; attained.len()],
     };
-    draw_different(&weights, config.hindsight, rng).into_iter().map(|i| attained[i]).collect()
+    draw::different(&weights, config.hindsight, rng).into_iter().map(|i| attained[i]).collect()
 }
 
 /// What the steps of a call have to teach about a goal: the way to each time it was attained, and what came after the last.

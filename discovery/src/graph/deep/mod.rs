@@ -10,13 +10,12 @@ mod config;
 mod consolidate;
 mod learning;
 mod query;
-mod regions;
 mod sampled;
 mod travel;
 mod walks;
 
 pub use config::DeepGraphConfig;
-pub use regions::{Ground, Region};
+pub use inroads_agents::goal::{Ground, Region};
 
 use inroads_agents::{Checkpoint, Context, Experience, Memory, Transition, checkpoint, tabular::argmax};
 use inroads_envs::Spec;
