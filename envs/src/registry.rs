@@ -11,7 +11,7 @@ use crate::world::{AnnotatedWorld, AnyWorld, Layout, Question, See, Wanted};
 use crate::{Annotated, Domain, Environment, Frame, Refused, Spec, Step};
 use crate::{
     baba, corridor, grid, manipulation, montezuma, pinball, probes, reacher, river, rooms, sokoban, taxi,
-    visual_taxi,
+    visual_grid, visual_taxi,
 };
 
 /// An environment of one of the kinds of observation and action that there are.
@@ -107,6 +107,7 @@ pub fn entries() -> impl Iterator<Item = &'static Entry> {
         reacher::ENTRIES,
         corridor::ENTRIES,
         rooms::ENTRIES,
+        visual_grid::ENTRIES,
         manipulation::ENTRIES,
         grid::ENTRIES,
         sokoban::ENTRIES,

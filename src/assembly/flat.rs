@@ -148,8 +148,8 @@ fn q_learning(
 fn counts_q(
     spec: &Spec,
     settings: &Table,
-    _: Backend,
-    _: Seed,
+    backend: Backend,
+    seed: Seed,
 ) -> Result<BoxedAgent<Vector, usize>, ConfigError> {
     let config: CountsConfig = section(settings.clone(), "counts-q")?;
     named("novelty", config.novelty.fits(spec))?;
@@ -158,7 +158,7 @@ fn counts_q(
     let replay = Replay::new(capacity).spanning(config.returns);
     let curious = Curious::new(learner.clone(), Practice::new(replay, config.memory.pace()))
         .sober(learner)
-        .with_novelty(config.novelty.build(), config.novelty.weight)
+        .with_novelty(config.novelty.build(spec, backend, seed), config.novelty.weight)
         .centred(config.novelty.centred);
     Ok(Box::new(Flat::new(curious, capacity)))
 }

@@ -1,29 +1,36 @@
 //! Parts that several agents have, each chosen by one line of their settings: what is new, what a goal is made of, and who
 //! plans.
 
+use std::sync::Arc;
+
 use inroads_agents::{
-    Novelty,
-    novelty::{Counts, FeatureCounts, FeatureCountsConfig},
+    Encoder, Novelty,
+    nets::Backend,
+    novelty::{Cfn, CfnConfig, Counts, FeatureCounts, FeatureCountsConfig, Rnd, RndConfig},
 };
 use inroads_discovery::{
     Features,
     graph::{AbstractMdp, AbstractMdpConfig, Cost, Dijkstra, Direct, Planner},
     naming::{Counterfactual, CounterfactualConfig, Name, Whole},
 };
-use inroads_envs::Spec;
+use inroads_envs::{Seed, Spec};
 use serde::{Deserialize, Serialize};
 
-use super::Vector;
+use super::{Vector, shared::scaled};
 
-/// What novelty counts.
+/// What novelty counts, or what stands in for a count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Counted {
+pub enum NoveltyKind {
     /// Whole states.
     #[default]
     States,
     /// Values of features, and pairs of them: then states that were never seen are told apart too.
     Features,
+    /// A network that foretells coins: 1/√N of what looks alike.
+    Cfn,
+    /// A network that foretells random numbers; its error is no count.
+    Rnd,
 }
 
 /// What is new, and what it counts.
@@ -31,9 +38,13 @@ pub enum Counted {
 #[serde(deny_unknown_fields, default)]
 pub struct NoveltyConfig {
     /// What is counted.
-    pub counts: Counted,
+    pub counts: NoveltyKind,
     /// How features are counted, where they are.
     pub features: FeatureCountsConfig,
+    /// How coins are foretold, where they are.
+    pub cfn: CfnConfig,
+    /// How random numbers are foretold, where they are.
+    pub rnd: RndConfig,
     /// b: what a bonus, divided by its standard deviation, counts beside the task's reward (thesis: 0.01).
     pub weight: f32,
     /// k of equation 7.8: standard deviations above the mean that make a state worth a vertex (thesis: 1).
@@ -44,8 +55,15 @@ pub struct NoveltyConfig {
 
 impl Default for NoveltyConfig {
     fn default() -> Self {
-        let features = FeatureCountsConfig::default();
-        Self { counts: Counted::States, features, weight: 0.01, threshold: 1.0, centred: true }
+        Self {
+            counts: NoveltyKind::States,
+            features: FeatureCountsConfig::default(),
+            cfn: CfnConfig::default(),
+            rnd: RndConfig::default(),
+            weight: 0.01,
+            threshold: 1.0,
+            centred: true,
+        }
     }
 }
 
@@ -63,7 +81,9 @@ impl NoveltyConfig {
                 return Err(format!("{name} is {value}; it must be 0 or above"));
             }
         }
-        self.features.check().map_err(|why| format!("features: {why}"))
+        self.features.check().map_err(|why| format!("features: {why}"))?;
+        self.cfn.check().map_err(|why| format!("cfn: {why}"))?;
+        self.rnd.check().map_err(|why| format!("rnd: {why}"))
     }
 
     /// Whether what is to be counted can be, in this domain.
@@ -72,7 +92,7 @@ impl NoveltyConfig {
     /// A sentence that names the domains where it can.
     pub(super) fn fits(&self, spec: &Spec) -> Result<(), String> {
         let (name, features) = (spec.name, spec.observation.len());
-        if self.counts == Counted::Features && features > MOST_FEATURES {
+        if self.counts == NoveltyKind::Features && features > MOST_FEATURES {
             return Err(format!(
                 "{name} shows {features} features, and pairs of more than {MOST_FEATURES} are too many to count; take a \
                  world whose name has `-factored`, or set novelty.counts = \"states\""
@@ -81,12 +101,34 @@ impl NoveltyConfig {
         Ok(())
     }
 
-    /// Who says how novel a state is.
-    pub(super) fn build(&self) -> Box<dyn Novelty<Vector>> {
+    /// Who says how novel a state is; networks read it scaled.
+    pub(super) fn build(&self, spec: &Spec, backend: Backend, seed: Seed) -> Box<dyn Novelty<Vector>> {
         match self.counts {
-            Counted::States => Box::new(Counts::default()),
-            Counted::Features => Box::new(FeatureCounts::new(&self.features)),
+            NoveltyKind::States => Box::new(Counts::default()),
+            NoveltyKind::Features => Box::new(FeatureCounts::new(&self.features)),
+            NoveltyKind::Cfn => Box::new(self.cfn(scaled(spec), backend, seed)),
+            NoveltyKind::Rnd => Box::new(self.rnd(scaled(spec), backend, seed)),
         }
+    }
+
+    /// A network that foretells coins, whatever is seen.
+    pub(super) fn cfn<O>(
+        &self,
+        encoder: Arc<dyn Encoder<O> + Send + Sync>,
+        backend: Backend,
+        seed: Seed,
+    ) -> Cfn<O> {
+        Cfn::new(encoder, &self.cfn, backend, &mut seed.stream("novelty", 0))
+    }
+
+    /// A network that foretells random numbers, whatever is seen.
+    pub(super) fn rnd<O>(
+        &self,
+        encoder: Arc<dyn Encoder<O> + Send + Sync>,
+        backend: Backend,
+        seed: Seed,
+    ) -> Rnd<O> {
+        Rnd::new(encoder, &self.rnd, backend, &mut seed.stream("novelty", 0))
     }
 }
 

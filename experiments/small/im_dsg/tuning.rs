@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::{
     Boxed,
-    agents::{Simple, flat, ours},
+    agents::{Simple, flat, im_dsg, ours},
     train,
     worlds::WORLDS,
 };
@@ -17,7 +17,6 @@ use crate::{
     Options,
     support::{Done, over_seeds, write},
 };
-use inroads::assembly::graphs::im_dsg;
 
 /// Seeds a configuration; the first of them, away from those of the comparison.
 const SEEDS: u64 = 4;
