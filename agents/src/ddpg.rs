@@ -207,8 +207,8 @@ impl<O, G: Encode> Learner<O, Vec<f32>, G> for Ddpg<O> {
         let targets = targets(clips.iter().map(|clip| clip.discounted(config.discount)), &next);
 
         let clip = config.gradient_clip;
-        let critic = Step { rate: config.critic_rate, decay: config.critic_decay, clip };
-        let actor = Step { rate: config.actor_rate, decay: 0.0, clip };
+        let critic = Step { rate: config.critic_rate, decay: config.critic_decay, clip, ..Step::default() };
+        let actor = Step { rate: config.actor_rate, clip, ..Step::default() };
         let errors = self.nets.learn(before, actions, targets, critic, actor, config.preactivation);
         self.nets.follow(config.tau);
         self.updates += 1;

@@ -3,7 +3,7 @@
 use inroads_agents::{
     Practice, Replay,
     ddpg::{Ddpg, DdpgConfig},
-    dqn::{DqnConfig, GrowingDqn, Loss},
+    dqn::{GrowingConfig, GrowingDqn, Loss},
     experience::Pay,
     nets::Backend,
     tabular::{TabularConfig, TabularQ},
@@ -55,9 +55,9 @@ pub(super) const ENTRIES: &[AgentEntry] = &[
 ];
 
 /// The policy over options as tuned on the Point-Maze: values of −100 are learned within ten thousand decisions.
-fn tuned_dqn() -> DqnConfig {
-    let defaults = DqnConfig::default();
-    DqnConfig { hidden: vec![128, 64], rate: 1e-3, tau: 0.01, loss: Loss::Squared, ..defaults }
+fn tuned_dqn() -> GrowingConfig {
+    let defaults = GrowingConfig::default();
+    GrowingConfig { hidden: vec![128, 64], rate: 1e-3, tau: 0.01, loss: Loss::Squared, ..defaults }
 }
 
 /// Settings of `dsc`.
@@ -68,7 +68,7 @@ struct DscConfig {
     policy: DdpgConfig,
     chain: ChainConfig,
     initiation: InitiationConfig,
-    over_options: DqnConfig,
+    over_options: GrowingConfig,
     exploration: Epsilon,
 }
 

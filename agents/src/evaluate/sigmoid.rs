@@ -157,7 +157,7 @@ impl<O, A, G: Encode> Evaluator<O, A, G> for Sigmoid<O, A> {
             let (cumulant, discount) = clip.discounted(self.config.discount);
             *target = (cumulant + discount * *target).clamp(0.0, 1.0);
         }
-        let step = Step { rate: self.config.rate, decay: 0.0, clip: 0.0 };
+        let step = Step { rate: self.config.rate, ..Step::default() };
         let loss = self.net.learn(learned, &targets, step);
         self.net.follow(self.config.tau);
         loss

@@ -17,8 +17,6 @@ use super::floats;
 const BETA1: f32 = 0.9;
 /// Decay of the mean of squared gradients; the paper's value, and PyTorch's.
 const BETA2: f32 = 0.999;
-/// Added to the root; the paper's value, and PyTorch's (Burn's default is 1e-5).
-const EPSILON: f32 = 1e-8;
 /// Moments below this are taken for zero. The moments of a dead unit decay for ever, and arithmetic on
 /// denormal numbers is up to a hundred times slower; at this size none can move a parameter any more.
 const NOTHING: f32 = 1e-30;
@@ -31,6 +29,15 @@ pub(crate) struct Step {
     pub(crate) decay: f32,
     /// Greatest norm of the whole gradient; 0 for any.
     pub(crate) clip: f32,
+    /// Added to the root.
+    pub(crate) epsilon: f32,
+}
+
+impl Default for Step {
+    /// The paper's values, and PyTorch's (Burn's default ε is 1e-5).
+    fn default() -> Self {
+        Self { rate: 1e-3, decay: 0.0, clip: 0.0, epsilon: 1e-8 }
+    }
 }
 
 /// Adam's state for one network.
@@ -63,7 +70,7 @@ impl Adam {
             scale,
             decay: step.decay,
             rate: (f64::from(step.rate) * second / first) as f32,
-            epsilon: (f64::from(EPSILON) * second) as f32,
+            epsilon: (f64::from(step.epsilon) * second) as f32,
         };
         *module = take(module).map(&mut update);
     }
@@ -150,7 +157,7 @@ mod tests {
     fn it_steps_as_the_paper_says() {
         let device = Backend::of_tests().plain();
         let (mut one, mut adam) = (module(&device), Adam::default());
-        let step = Step { rate: 0.01, decay: 0.1, clip: 0.0 };
+        let step = Step { rate: 0.01, decay: 0.1, ..Step::default() };
         let (mut p, mut m, mut v) = ([1.0_f64, 2.0], [0.0; 2], [0.0; 2]);
         for (t, grads) in [[0.5, -3.0], [-0.1, 2.0], [0.0, 1e-4], [7.0, 0.3]].into_iter().enumerate() {
             let given = gradients(&one, grads[0] as f32, grads[1] as f32, &device);
@@ -174,12 +181,12 @@ mod tests {
         let device = Backend::of_tests().plain();
         let (mut one, mut adam) = (module(&device), Adam::default());
         let given = gradients(&one, 3.0, -4.0, &device);
-        adam.step(Step { rate: 0.01, decay: 0.0, clip: 1.0 }, &mut one, given);
+        adam.step(Step { rate: 0.01, clip: 1.0, ..Step::default() }, &mut one, given);
         let means: Vec<f32> = adam.moments.iter().map(|(mean, _)| mean[0]).collect();
         assert!((means[0] - 0.06).abs() < 1e-6 && (means[1] + 0.08).abs() < 1e-6, "{means:?}");
 
         let before = values(&one);
-        adam.step(Step { rate: 0.01, decay: 0.0, clip: 1.0 }, &mut one, GradientsParams::new());
+        adam.step(Step { rate: 0.01, clip: 1.0, ..Step::default() }, &mut one, GradientsParams::new());
         assert_eq!(values(&one), before);
     }
 }

@@ -98,7 +98,7 @@ mod tests {
         let rows = vec![0.0, 1.0, 1.0, 0.0];
         let before = net.values(rows.clone());
         assert!(before.iter().all(|p| (p - 0.5).abs() < 0.02), "{before:?}");
-        let step = Step { rate: 0.01, decay: 0.0, clip: 0.0 };
+        let step = Step { rate: 0.01, ..Step::default() };
         let first = net.learn(rows.clone(), &[0.9, 0.2], step);
         assert!((first - 2_f32.ln()).abs() < 0.02, "half a bit of each is {first}");
         (0..600).for_each(|_| _ = net.learn(rows.clone(), &[0.9, 0.2], step));
@@ -112,7 +112,7 @@ mod tests {
     #[test]
     fn equal_seeds_learn_to_the_same_bits_and_checkpoints_go_on_alike() {
         let (mut one, mut two) = (net(2), net(2));
-        let step = Step { rate: 0.01, decay: 0.0, clip: 0.0 };
+        let step = Step { rate: 0.01, ..Step::default() };
         (0..20).for_each(|_| _ = one.learn(vec![0.3, 0.4], &[1.0], step));
         let mut bag = Bag::default();
         one.save(&mut bag);

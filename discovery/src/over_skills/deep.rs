@@ -126,13 +126,13 @@ impl<O> PolicyOverSkills<O> for DeepOverSkills<O> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use inroads_agents::{dqn::DqnConfig, encode::Select, nets::Backend};
+    use inroads_agents::{dqn::GrowingConfig, encode::Select, nets::Backend};
     use inroads_envs::Seed;
 
     #[test]
     fn a_new_skill_is_worth_the_best_that_its_triggers_have_seen_and_changes_no_other_value() {
         let mut rng = Seed(1).stream("test", 0);
-        let network = GrowingDqn::new(2, 2, &DqnConfig::default(), Backend::Flex, &mut rng);
+        let network = GrowingDqn::new(2, 2, &GrowingConfig::default(), Backend::Flex, &mut rng);
         let encoder = Arc::new(Select::new(&[0, 1]));
         let mut policy = DeepOverSkills::new(encoder, network, Epsilon::default(), 10);
         let states: Vec<Vec<f32>> = (0..50).map(|i| vec![(i as f32).sin(), (i as f32).cos()]).collect();
