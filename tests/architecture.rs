@@ -66,6 +66,7 @@ const DOMAINS: &[&str] = &[
     "grid",
     "sokoban",
     "taxi",
+    "visual_grid",
     "visual_taxi",
     "pinball",
     "river",

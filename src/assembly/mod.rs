@@ -6,6 +6,7 @@
 
 mod abstracting;
 mod chaining;
+mod curious;
 mod deep_graphs;
 mod flat;
 pub mod graphs;
@@ -61,6 +62,7 @@ pub fn agents() -> impl Iterator<Item = &'static AgentEntry> {
         proto::ENTRIES,
         abstracting::ENTRIES,
         flat::ENTRIES,
+        curious::ENTRIES,
     ]
     .into_iter()
     .flatten()

@@ -138,7 +138,7 @@ mod tests {
             net = net.quiet();
             assert!(net.outputs(states.clone()).iter().all(|x| x.abs() < 0.05));
             let errors = |now: &[f32]| now.iter().zip(targets).map(|(x, y)| x - y).collect::<Vec<_>>();
-            let step = Step { rate: 0.01, decay: 0.0, clip: 0.0 };
+            let step = Step { rate: 0.01, ..Step::default() };
             (0..400).for_each(|_| net.learn(states.clone(), errors, step));
             let left = errors(&net.outputs(states));
             assert!(left.iter().all(|error| error.abs() < 0.02), "{left:?}");
@@ -152,7 +152,7 @@ mod tests {
         net.learn(
             vec![0.0, 0.0],
             |now| now.iter().map(|x| x - 1.0).collect(),
-            Step { rate: 0.1, decay: 0.0, clip: 0.0 },
+            Step { rate: 0.1, ..Step::default() },
         );
         for output in net.outputs(vec![0.0, 0.0]) {
             assert!((output - 0.1).abs() < 1e-3, "{output}");

@@ -171,7 +171,7 @@ impl<O> Cfn<O> {
         let added = self.prior.as_ref().map(|prior| prior.outputs(rows.clone()));
         let coins = self.config.coins as usize;
         let mut said = Vec::new();
-        let step = Step { rate: self.config.rate, decay: 0.0, clip: 0.0 };
+        let step = Step { rate: self.config.rate, ..Step::default() };
         self.learned.learn(
             rows,
             |outputs| {

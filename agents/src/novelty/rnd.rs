@@ -136,7 +136,7 @@ impl<O> Rnd<O> {
         let rows = self.rows(&seen);
         let targets = self.target.outputs(rows.clone());
         let errors = |outputs: &[f32]| outputs.iter().zip(&targets).map(|(x, y)| x - y).collect();
-        self.predictor.learn(rows, errors, Step { rate: self.config.rate, decay: 0.0, clip: 0.0 });
+        self.predictor.learn(rows, errors, Step { rate: self.config.rate, ..Step::default() });
         self.updates += 1;
     }
 }
