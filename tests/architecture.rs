@@ -67,6 +67,7 @@ const DOMAINS: &[&str] = &[
     "grid",
     "sokoban",
     "taxi",
+    "visual_grid",
     "visual_taxi",
     "pinball",
     "river",

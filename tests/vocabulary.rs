@@ -70,6 +70,20 @@ fn explorers_with_every_kind_of_planner_novelty_and_name() {
 }
 
 #[test]
+fn agents_with_a_bonus_from_networks() {
+    let keys: [(&str, &[&str]); 5] = [
+        ("novelty.counts", &["cfn", "rnd"]),
+        ("novelty.cfn.warm_up", &["20"]),
+        ("novelty.rnd.warm_up", &["20"]),
+        ("novelty.cfn.batch", &["8"]),
+        ("novelty.rnd.batch", &["8"]),
+    ];
+    for agent in ["counts-q", "im-dsg", "abstract-subgoals"] {
+        all_train(agent, "nine-cells", 6, &keys);
+    }
+}
+
+#[test]
 fn graphs_of_regions_with_every_kind_of_set_planner_and_policy() {
     let keys: [(&str, &[&str]); 3] = [
         ("initiation.sets", &["binary", "dual"]),

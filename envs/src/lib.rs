@@ -34,6 +34,7 @@ pub mod sokoban;
 mod spec;
 pub mod taxi;
 pub mod vector;
+pub mod visual_grid;
 pub mod visual_taxi;
 pub mod world;
 

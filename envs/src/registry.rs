@@ -11,7 +11,7 @@ use crate::world::{AnnotatedWorld, AnyWorld, Layout, Question, See, Wanted};
 use crate::{Annotated, Domain, Environment, Frame, Refused, Spec, Step};
 use crate::{
     ant_run, baba, corridor, grid, manipulation, montezuma, pinball, probes, reacher, recall, river, rooms,
-    sokoban, taxi, visual_taxi,
+    sokoban, taxi, visual_grid, visual_taxi,
 };
 
 /// An environment of one of the kinds of observation and action that there are.
@@ -109,6 +109,7 @@ pub fn entries() -> impl Iterator<Item = &'static Entry> {
         corridor::ENTRIES,
         recall::ENTRIES,
         rooms::ENTRIES,
+        visual_grid::ENTRIES,
         manipulation::ENTRIES,
         grid::ENTRIES,
         sokoban::ENTRIES,

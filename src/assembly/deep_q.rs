@@ -1,21 +1,19 @@
 //! Deep Q-learning for the whole task: Rainbow's parts, each a setting.
 
-use std::sync::Arc;
-
 use inroads_agents::{
-    Curious, Encoder, Flat, Practice, Replay,
+    Curious, Flat, Practice, Replay,
     dqn::{Dqn, DqnConfig, Epsilon},
-    encode::OneHot,
     nets::Backend,
     replay::PriorityConfig,
 };
-use inroads_envs::{Dimension, Kind, Seed, Spec};
+use inroads_envs::{Seed, Spec};
 use serde::{Deserialize, Serialize};
 use toml::Table;
 
 use super::{
-    AgentEntry, BoxedAgent, Vector,
-    shared::{MemoryConfig, choices, named, scaled, table},
+    AgentEntry, BoxedAgent,
+    kinds::{EncoderKind, Observed},
+    shared::{MemoryConfig, choices, named, table},
 };
 use crate::config::{ConfigError, section};
 
@@ -27,7 +25,7 @@ pub(super) const ENTRIES: &[AgentEntry] = &[AgentEntry {
     continuous: None,
     discrete: Some(dqn),
     annotated: None,
-    pictured: None,
+    pictured: Some(dqn),
 }];
 
 /// Settings of `dqn`.
@@ -39,19 +37,6 @@ struct FlatDqnConfig {
     memory: MemoryConfig,
     replay: ReplayConfig,
     learner: DqnConfig,
-}
-
-/// How vectors become rows that networks read.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum EncoderKind {
-    /// One-hot where everything looks like a whole number, else scaled.
-    #[default]
-    Auto,
-    /// A block a dimension, with a one at its value.
-    OneHot,
-    /// By the usual range of each dimension.
-    Scaled,
 }
 
 /// What is drawn from the memory.
@@ -107,38 +92,14 @@ impl FlatDqnConfig {
     }
 }
 
-impl EncoderKind {
-    fn build(self, spec: &Spec) -> Result<Arc<dyn Encoder<Vector> + Send + Sync>, ConfigError> {
-        let one_hot = match self {
-            Self::Auto => spec.observation.dimensions().iter().all(counts),
-            Self::OneHot => true,
-            Self::Scaled => false,
-        };
-        if !one_hot {
-            return Ok(scaled(spec));
-        }
-        Ok(Arc::new(named("encoder", OneHot::new(&spec.observation, &[]).map_err(|why| why.to_string()))?))
-    }
-}
-
-/// Whether a dimension looks like a whole number: it counts something from a whole number up to another, in no unit that
-/// things are measured in. A guess, which the setting overrules: a `Spec` does not say it.
-fn counts(dimension: &Dimension) -> bool {
-    let whole = |x: f32| x.is_finite() && x >= 0.0 && x.fract() == 0.0;
-    dimension.kind == Kind::Linear
-        && whole(dimension.low)
-        && whole(dimension.high)
-        && ["", "cells", "steps", "turns"].contains(&dimension.unit)
-}
-
-fn dqn(
+fn dqn<O: Observed>(
     spec: &Spec,
     settings: &Table,
     backend: Backend,
     seed: Seed,
-) -> Result<BoxedAgent<Vector, usize>, ConfigError> {
+) -> Result<BoxedAgent<O, usize>, ConfigError> {
     let config: FlatDqnConfig = section(settings.clone(), "dqn")?;
-    let encoder = config.encoder.build(spec)?;
+    let encoder = O::reader(spec, &config.learner.torso, config.encoder)?;
     let mut rng = seed.stream("initialise", 0);
     let learner = Dqn::new(encoder, choices(spec), &config.learner, backend, &mut rng);
     Ok(Box::new(Flat::new(Curious::new(learner, config.practice()), config.memory.capacity)))
@@ -147,30 +108,6 @@ fn dqn(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use inroads_envs::registry::{self, AnyEnvironment, Options};
-
-    /// Numbers a row that networks read of a world of symbols.
-    fn width(world: &str, kind: EncoderKind) -> usize {
-        let options = Options { see: Some("symbols".parse().unwrap()), ..Options::default() };
-        let AnyEnvironment::Choices(env) = registry::make_with(world, &options).unwrap() else {
-            panic!("{world} is seen otherwise")
-        };
-        kind.build(env.spec()).unwrap().width()
-    }
-
-    #[test]
-    fn what_counts_is_one_hot_and_what_is_measured_is_scaled() {
-        // Rows, columns, passenger's places, destinations.
-        assert_eq!(width("taxi", EncoderKind::Auto), 5 + 5 + 5 + 4);
-        assert_eq!(width("taxi", EncoderKind::Scaled), 4);
-        // The agent and what it holds and stands on, and 25 cells of an object, a colour and a state.
-        assert_eq!(
-            width("door-key-5x5", EncoderKind::Auto),
-            (5 + 5 + 4 + 8 + 6 + 13 + 10 + 6) + 25 * (11 + 6 + 4)
-        );
-        assert_eq!(width("pinball", EncoderKind::Auto), width("pinball", EncoderKind::Scaled));
-        assert_eq!(width("montezuma", EncoderKind::Auto), width("montezuma", EncoderKind::Scaled));
-    }
 
     #[test]
     fn settings_that_make_no_agent_are_named() {

@@ -1,18 +1,18 @@
 //! Flat baselines on tables: one learner for the whole task.
 
 use inroads_agents::{
-    Curious, Flat, Key, Novelty, Practice, Replay,
+    Curious, Flat, Practice, Replay,
     nets::Backend,
-    novelty::Counts,
     tabular::{TabularConfig, TabularQ},
 };
 use inroads_envs::{Seed, Spec};
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use serde::{Deserialize, Serialize};
 use toml::Table;
 
 use super::{
-    AgentEntry, BoxedAgent, Vector,
-    parts::{Counted, NoveltyConfig},
+    AgentEntry, BoxedAgent,
+    kinds::Observed,
+    parts::NoveltyConfig,
     shared::{MemoryConfig, choices, named, table},
 };
 use crate::config::{ConfigError, section};
@@ -34,17 +34,9 @@ pub(super) const ENTRIES: &[AgentEntry] = &[
         defaults: || table(&CountsConfig::default()),
         check: |t| section::<CountsConfig>(t.clone(), "counts-q")?.check(),
         continuous: None,
-        discrete: Some(|spec, settings, _, _| {
-            let config: CountsConfig = section(settings.clone(), "counts-q")?;
-            named("novelty", config.novelty.fits(spec))?;
-            Ok(counts_q(spec, &config, config.novelty.build()))
-        }),
+        discrete: Some(counts_q),
         annotated: None,
-        pictured: Some(|spec, settings, _, _| {
-            let config: CountsConfig = section(settings.clone(), "counts-q")?;
-            named("novelty", config.whole())?;
-            Ok(counts_q(spec, &config, Box::new(Counts::default())))
-        }),
+        pictured: Some(counts_q),
     },
 ];
 
@@ -93,25 +85,6 @@ impl CountsConfig {
     }
 }
 
-impl CountsConfig {
-    /// Whether whole states are counted, which is all that can be of pictures.
-    fn whole(&self) -> Result<(), String> {
-        match self.novelty.counts {
-            Counted::States => Ok(()),
-            Counted::Features => {
-                Err("pictures have no features to be counted; set novelty.counts = \"states\", or see \
-                                      the world as symbols: --see symbols"
-                    .into())
-            }
-        }
-    }
-}
-
-/// What tables are kept of and experience is saved of: vectors, pictures.
-trait Remembered: Key + Clone + Serialize + DeserializeOwned + 'static {}
-
-impl<O: Key + Clone + Serialize + DeserializeOwned + 'static> Remembered for O {}
-
 impl FlatTabularConfig {
     fn check(&self) -> Result<(), ConfigError> {
         named("memory", self.memory.check())?;
@@ -120,7 +93,7 @@ impl FlatTabularConfig {
 }
 
 /// An agent for whatever has keys.
-fn q_learning<O: Remembered>(
+fn q_learning<O: Observed>(
     spec: &Spec,
     settings: &Table,
     _: Backend,
@@ -133,11 +106,14 @@ fn q_learning<O: Remembered>(
 }
 
 /// The same with a bonus for what is novel.
-fn counts_q<O: Remembered>(
+fn counts_q<O: Observed>(
     spec: &Spec,
-    config: &CountsConfig,
-    novelty: Box<dyn Novelty<O>>,
-) -> BoxedAgent<O, usize> {
+    settings: &Table,
+    backend: Backend,
+    seed: Seed,
+) -> Result<BoxedAgent<O, usize>, ConfigError> {
+    let config: CountsConfig = section(settings.clone(), "counts-q")?;
+    let novelty = config.novelty.build(spec, backend, seed)?;
     let learner = TabularQ::new(choices(spec), &config.policy);
     let capacity = config.memory.capacity;
     let replay = Replay::new(capacity).spanning(config.returns);
@@ -145,5 +121,5 @@ fn counts_q<O: Remembered>(
         .sober(learner)
         .with_novelty(novelty, config.novelty.weight)
         .centred(config.novelty.centred);
-    Box::new(Flat::new(curious, capacity))
+    Ok(Box::new(Flat::new(curious, capacity)))
 }

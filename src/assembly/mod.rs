@@ -7,11 +7,13 @@
 mod abstracting;
 mod actor_critic;
 mod chaining;
+mod curious;
 mod deep_graphs;
 mod deep_q;
 mod flat;
 pub mod graphs;
 mod initiation;
+mod kinds;
 pub mod parts;
 mod proto;
 mod recurrent;
@@ -67,6 +69,7 @@ pub fn agents() -> impl Iterator<Item = &'static AgentEntry> {
         abstracting::ENTRIES,
         actor_critic::ENTRIES,
         flat::ENTRIES,
+        curious::ENTRIES,
         deep_q::ENTRIES,
         recurrent::ENTRIES,
     ]

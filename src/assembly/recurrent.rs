@@ -11,8 +11,9 @@ use serde::{Deserialize, Serialize};
 use toml::Table;
 
 use super::{
-    AgentEntry, BoxedAgent, Vector,
-    shared::{MemoryConfig, choices, named, scaled, table},
+    AgentEntry, BoxedAgent,
+    kinds::{EncoderKind, Observed},
+    shared::{MemoryConfig, choices, named, table},
 };
 use crate::config::{ConfigError, section};
 
@@ -24,13 +25,15 @@ pub(super) const ENTRIES: &[AgentEntry] = &[AgentEntry {
     continuous: None,
     discrete: Some(r2d2),
     annotated: None,
-    pictured: None,
+    pictured: Some(r2d2),
 }];
 
 /// Settings of `r2d2`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct FlatR2d2Config {
+    /// How vectors become rows.
+    encoder: EncoderKind,
     memory: MemoryConfig,
     sequences: SequenceConfig,
     priorities: PriorityConfig,
@@ -43,7 +46,9 @@ impl Default for FlatR2d2Config {
     fn default() -> Self {
         let memory = MemoryConfig { capacity: 200_000, updates_per_step: 0.125, warm_up: 2000 };
         let priorities = PriorityConfig { exponent: 0.9, correction: 0.6, ..PriorityConfig::default() };
-        Self { memory, sequences: SequenceConfig::default(), priorities, policy: R2d2Config::default() }
+        let (encoder, sequences, policy) =
+            (EncoderKind::Auto, SequenceConfig::default(), R2d2Config::default());
+        Self { encoder, memory, sequences, priorities, policy }
     }
 }
 
@@ -92,15 +97,16 @@ impl FlatR2d2Config {
     }
 }
 
-fn r2d2(
+fn r2d2<O: Observed>(
     spec: &Spec,
     settings: &Table,
     backend: Backend,
     seed: Seed,
-) -> Result<BoxedAgent<Vector, usize>, ConfigError> {
+) -> Result<BoxedAgent<O, usize>, ConfigError> {
     let config: FlatR2d2Config = section(settings.clone(), "r2d2")?;
     let mut rng = seed.stream("initialise", 0);
-    let learner = R2d2::new(scaled(spec), choices(spec), &config.policy, backend, &mut rng);
+    let encoder = O::reader(spec, &config.policy.torso, config.encoder)?;
+    let learner = R2d2::new(encoder, choices(spec), &config.policy, backend, &mut rng);
     let capacity = config.memory.capacity;
     let SequenceConfig { length, period, burn_in } = config.sequences;
     let replay = Replay::new(capacity).sequences(length, period, burn_in).prioritised(config.priorities);

@@ -20,6 +20,7 @@ mod noisy;
 mod probability;
 mod q_network;
 mod recurrent;
+mod regression;
 mod squash;
 mod target;
 mod torso;
@@ -34,6 +35,7 @@ pub(crate) use noisy::head_noise;
 pub(crate) use probability::ProbabilityNet;
 pub(crate) use q_network::QNetwork;
 pub(crate) use recurrent::{RecurrentNet, RecurrentShape, Steps};
+pub(crate) use regression::Regression;
 pub use torso::{TorsoConfig, Vision};
 
 use std::mem::take;
