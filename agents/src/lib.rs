@@ -1,5 +1,5 @@
 //! Learners with no notion of options: replay, networks on Burn, DDPG, double DQN, tables, policy evaluation, novelty,
-//! support vector machines.
+//! model-based control, support vector machines.
 //!
 //! Burn stands in this room only, and is compiled once: rows of numbers in, rows of numbers out.
 
@@ -15,6 +15,7 @@ pub mod evaluate;
 pub mod experience;
 pub mod flat;
 pub mod lspi;
+pub mod mpc;
 pub mod nets;
 pub mod noise;
 pub mod novelty;
@@ -32,6 +33,7 @@ pub use episode::{Summary, episode};
 pub use evaluate::Evaluator;
 pub use experience::{Clip, Experience, Lesson};
 pub use flat::Flat;
+pub use mpc::Mpc;
 pub use novelty::Novelty;
 pub use pace::Pace;
 pub use practice::Practice;

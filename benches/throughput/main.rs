@@ -7,6 +7,7 @@
 mod bodies;
 mod calibration;
 mod compare;
+mod control;
 mod evaluator;
 mod learners;
 mod measure;
@@ -82,6 +83,7 @@ fn run(options: &Options) -> Result<bool, String> {
     let mut workloads = bodies::bodies();
     workloads.extend(worlds::worlds());
     workloads.extend(learners::ddpg());
+    workloads.extend(control::control());
     workloads.extend(evaluator::evaluator());
     workloads.extend(planning::planning());
     if let Some(name) = &options.only {

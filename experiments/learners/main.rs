@@ -6,6 +6,7 @@
 
 #![allow(clippy::print_stdout)] // what the command is for
 
+mod mpc;
 #[path = "../support.rs"]
 mod support;
 
@@ -17,7 +18,7 @@ use clap::Parser;
 type Experiment = fn(&Options) -> support::Done;
 
 /// Experiments by name.
-const EXPERIMENTS: &[(&str, Experiment)] = &[];
+const EXPERIMENTS: &[(&str, Experiment)] = &[("mpc", mpc::run)];
 
 /// Runs one experiment, or all of them.
 #[derive(Debug, Parser)]

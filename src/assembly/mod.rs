@@ -10,6 +10,7 @@ mod deep_graphs;
 mod flat;
 pub mod graphs;
 mod initiation;
+mod model_based;
 pub mod parts;
 mod proto;
 mod shared;
@@ -61,6 +62,7 @@ pub fn agents() -> impl Iterator<Item = &'static AgentEntry> {
         proto::ENTRIES,
         abstracting::ENTRIES,
         flat::ENTRIES,
+        model_based::ENTRIES,
     ]
     .into_iter()
     .flatten()

@@ -14,6 +14,7 @@ mod init;
 mod mlp;
 mod probability;
 mod q_network;
+mod regressor;
 mod target;
 mod torso;
 
@@ -22,6 +23,7 @@ pub(crate) use adam::Step;
 pub use device::{Backend, NoBackend};
 pub(crate) use probability::ProbabilityNet;
 pub(crate) use q_network::QNetwork;
+pub(crate) use regressor::{Layers, Regressor};
 pub use torso::TorsoConfig;
 
 use std::mem::take;
