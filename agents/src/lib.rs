@@ -1,5 +1,5 @@
 //! Learners with no notion of options: replay, hindsight, networks on Burn, DDPG, TD3, the DQN family, R2D2, tables, policy
-//! evaluation, novelty, models of dynamics, support vector machines.
+//! evaluation, novelty, model-based control, support vector machines.
 //!
 //! Burn stands in this room only, and is compiled once: rows of numbers in, rows of numbers out.
 
@@ -20,6 +20,7 @@ pub mod goal;
 pub mod hindsight;
 pub mod lanes;
 pub mod lspi;
+pub mod mpc;
 pub mod nets;
 pub mod noise;
 pub mod novelty;
@@ -42,6 +43,7 @@ pub use experience::{Clip, Experience, Lesson};
 pub use flat::Flat;
 pub use goal::Goal;
 pub use lanes::{Crowd, round};
+pub use mpc::Mpc;
 pub use novelty::Novelty;
 pub use pace::Pace;
 pub use practice::Practice;

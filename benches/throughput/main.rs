@@ -7,6 +7,7 @@
 mod bodies;
 mod calibration;
 mod compare;
+mod control;
 mod evaluator;
 mod learners;
 mod measure;
@@ -85,6 +86,7 @@ fn run(options: &Options) -> Result<bool, String> {
     workloads.extend(learners::ddpg());
     workloads.extend(recurrent::r2d2());
     workloads.extend(learners::td3());
+    workloads.extend(control::control());
     workloads.extend(evaluator::evaluator());
     workloads.extend(planning::planning());
     if let Some(name) = &options.only {

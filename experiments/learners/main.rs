@@ -7,6 +7,7 @@
 #![allow(clippy::print_stdout)] // what the command is for
 
 mod dqn;
+mod mpc;
 mod r2d2_frames;
 mod recall;
 #[path = "../support.rs"]
@@ -24,6 +25,7 @@ type Experiment = fn(&Options) -> support::Done;
 /// Experiments by name.
 const EXPERIMENTS: &[(&str, Experiment)] = &[
     ("dqn", dqn::run),
+    ("mpc", mpc::run),
     ("r2d2-frames", r2d2_frames::run),
     ("recall", recall::run),
     ("td3-ant", td3_ant::run),

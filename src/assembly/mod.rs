@@ -14,6 +14,7 @@ mod flat;
 pub mod graphs;
 mod initiation;
 mod kinds;
+mod model_based;
 pub mod parts;
 mod proto;
 mod recurrent;
@@ -72,6 +73,7 @@ pub fn agents() -> impl Iterator<Item = &'static AgentEntry> {
         curious::ENTRIES,
         deep_q::ENTRIES,
         recurrent::ENTRIES,
+        model_based::ENTRIES,
     ]
     .into_iter()
     .flatten()

@@ -21,6 +21,7 @@ mod probability;
 mod q_network;
 mod recurrent;
 mod regression;
+mod regressor;
 mod squash;
 mod target;
 mod torso;
@@ -36,6 +37,7 @@ pub(crate) use probability::ProbabilityNet;
 pub(crate) use q_network::QNetwork;
 pub(crate) use recurrent::{RecurrentNet, RecurrentShape, Steps};
 pub(crate) use regression::Regression;
+pub(crate) use regressor::{Layers, Regressor};
 pub use torso::{TorsoConfig, Vision};
 
 use std::mem::take;
