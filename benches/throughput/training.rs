@@ -94,8 +94,10 @@ fn td3_on_the_ant() -> Workload {
     let config = Config::defaults("td3", "ant")
         .and_then(|config| config.with_assignment("memory.warm_up=256"))
         .expect("these settings are possible");
-    let build = assembly::agent("td3").expect("it is in the registry").continuous.expect("it acts by numbers");
-    let agent = build(env.spec(), &config.agent, Backend::Flex, Seed(0)).expect("these settings are possible");
+    let build =
+        assembly::agent("td3").expect("it is in the registry").continuous.expect("it acts by numbers");
+    let agent =
+        build(env.spec(), &config.agent, Backend::Flex, Seed(0)).expect("these settings are possible");
     let ctx = Context::training(Seed(0), 0);
     let mut life = Life { env, agent, ctx, episodes: 0, before: Vec::new(), after: Vec::new() };
     life.begin();

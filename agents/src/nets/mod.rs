@@ -8,8 +8,8 @@
 
 mod actor_critic;
 mod adam;
-mod deep_q;
 mod convolution;
+mod deep_q;
 mod device;
 mod dueling;
 mod init;
