@@ -14,6 +14,7 @@ mod measure;
 mod planning;
 mod processor;
 mod recurrent;
+mod training;
 mod workload;
 mod worlds;
 
@@ -46,7 +47,8 @@ struct Options {
     /// Write this processor's part of this file.
     #[arg(long, value_name = "FILE", conflicts_with = "quick")]
     record: Option<PathBuf>,
-    /// Print one number: operations a second of this workload, as many as are done in `--seconds`.
+    /// Print two numbers: operations of this workload in a second of processor time and of the clock's, as many as are
+    /// done in `--seconds`.
     #[arg(long, value_name = "WORKLOAD")]
     only: Option<String>,
     /// How long `--only` measures.
@@ -87,13 +89,15 @@ fn run(options: &Options) -> Result<bool, String> {
     workloads.extend(recurrent::r2d2());
     workloads.extend(learners::td3());
     workloads.extend(control::control());
+    workloads.extend(training::training());
     workloads.extend(evaluator::evaluator());
     workloads.extend(planning::planning());
     if let Some(name) = &options.only {
         let names = workloads.iter().map(|w| w.name.clone()).collect::<Vec<_>>().join("\n  ");
         let found = workloads.iter_mut().find(|w| w.name == *name);
         let found = found.ok_or_else(|| format!("there is no workload `{name}`; all of them:\n  {names}"))?;
-        println!("{:.1}", plainly(found, options.seconds));
+        let [processor, clock] = plainly(found, options.seconds);
+        println!("{processor:.4} {clock:.4}");
         return Ok(true);
     }
     let effort = if options.quick {
