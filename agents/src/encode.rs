@@ -5,7 +5,7 @@ mod one_hot;
 mod patches;
 
 pub(crate) use inputs::Inputs;
-pub use one_hot::{OneHot, OneHotError};
+pub use one_hot::{Choices, OneHot, OneHotError};
 pub use patches::{PatchError, Patches};
 
 use inroads_envs::{Kind, Space};

@@ -5,7 +5,7 @@
 
 use std::{collections::BTreeMap, ops::Range};
 
-use inroads_agents::{Experience, tabular::argmax};
+use inroads_agents::{Experience, draw::argmax};
 use inroads_envs::Rng;
 use serde::{Deserialize, Serialize};
 
