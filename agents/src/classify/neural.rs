@@ -87,7 +87,7 @@ impl Weighing for Neural {
             true => class_weights(labels).map(|weight| weight * rows.len() as f32 / 2.0),
             false => [1.0; 2],
         };
-        let step = Step { rate: self.config.rate, decay: 0.0, clip: 0.0 };
+        let step = Step { rate: self.config.rate, ..Step::default() };
         let mut net = self.fresh.clone();
         // Every so many rows make a batch, so that all batches have of either class.
         let batches = rows.len().div_ceil(self.config.batch);

@@ -180,7 +180,7 @@ impl Dynamics {
                 // The rate falls linearly, so that a fit ends where the noise of minibatches is small.
                 let done = (epoch * batches + i) as f32 / all;
                 let rate = self.config.rate * (1.0 + done * (self.config.last_rate - 1.0));
-                let step = Step { rate, decay: 0.0, clip: 0.0 };
+                let step = Step { rate, ..Step::default() };
                 loss +=
                     self.nets[net].learn(rows(&table.inputs, inputs), rows(&table.changes, changes), step);
             }

@@ -100,7 +100,7 @@ mod tests {
             let mut net = Regressor::new(shape, Backend::of_tests(), &mut Seed(1).stream("weights", 0));
             let x: Vec<f32> = (0..32).map(|i| i as f32 / 16.0 - 1.0).collect();
             let y: Vec<f32> = x.iter().flat_map(|x| [x.abs(), -2.0 * x]).collect();
-            let step = Step { rate: 0.01, decay: 0.0, clip: 0.0 };
+            let step = Step { rate: 0.01, ..Step::default() };
             let first = net.learn(x.clone(), y.clone(), step);
             let last = (0..800).map(|_| net.learn(x.clone(), y.clone(), step)).last().unwrap();
             assert!(first > 0.3 && last < 1e-3, "{slope}: {first} {last}");
