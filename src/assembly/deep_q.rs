@@ -57,8 +57,8 @@ enum EncoderKind {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct ReplayConfig {
-    /// Steps of returns; 1. Rainbow has 3, which hold what random steps cost: in Taxi, where such a step may cost 10, no
-    /// seed learned with 3 (`docs/results/learners.md`).
+    /// Steps of returns; 1. Rainbow has 3, which hold what random steps cost: in Taxi, where such a step may cost 10, the
+    /// runs with 3 that we tried learned nothing (`docs/results/learners.md`).
     returns: u32,
     /// Whether what surprised is drawn more often (Schaul 2016).
     prioritised: bool,
