@@ -1,5 +1,5 @@
 //! The DQN family on two worlds whose answers are known: DoorKey-5x5 (another layout in each episode) and Taxi, both as
-//! symbols; and what Rainbow's parts are worth on the first, at equal steps.
+//! symbols; and what the parts of Rainbow are worth there at equal steps.
 //!
 //! Training is watched every 5,000 steps by 20 frozen episodes, and after its end by 100. Starts of evaluations are none of
 //! training's. Each variant is the agent `dqn` of the registry with a few settings; none was tuned by itself but the
@@ -33,23 +33,35 @@ const LAST: u64 = 100;
 /// What counts as solved.
 const SOLVED: f64 = 0.95;
 
-const PLAIN: &[&str] =
-    &["learner.double=false", "learner.dueling=false", "replay.returns=1", "replay.prioritised=false"];
+/// Worlds and their steps of training.
+const WORLDS: [(&str, u64); 2] = [("door-key-5x5", 100_000), ("taxi", 100_000)];
 
-/// World, steps, and variants by name with what they set.
-type Trial = (&'static str, u64, &'static [(&'static str, &'static [&'static str])]);
+const PLAIN: &[&str] = &["learner.double=false", "learner.dueling=false", "replay.prioritised=false"];
+/// Taxi's returns: 20 at most, −1 for ever is −20, and each of what is not allowed costs 10 more.
+const ATOMS: &[&str] = &["learner.atoms.number=51", "learner.atoms.low=-50", "learner.atoms.high=20"];
+/// DoorKey pays 1 at most, once.
+const ATOMS_OF_ONE: &[&str] = &["learner.atoms.number=51", "learner.atoms.low=-1", "learner.atoms.high=1"];
+/// Hessel 2018, but for its rates.
+const RAINBOW: &[&str] = &[
+    "learner.atoms.number=51",
+    "learner.atoms.low=-1",
+    "learner.atoms.high=1",
+    "learner.noise=0.5",
+    "learner.epsilon.start=0",
+    "learner.epsilon.end=0",
+    "replay.returns=3",
+];
 
-const TRIALS: [Trial; 2] = [
-    (
-        "door-key-5x5",
-        60_000,
-        &[
-            ("dqn", &[]),
-            ("plain DQN", PLAIN),
-            ("C51", &["learner.atoms.number=51", "learner.atoms.low=-1", "learner.atoms.high=1"]),
-        ],
-    ),
-    ("taxi", 100_000, &[("dqn", &[])]),
+/// World (by number), variant, and what that sets; what matters most first.
+const TRIALS: [(usize, &str, &[&str]); 8] = [
+    (1, "C51", ATOMS),
+    (0, "dqn", &[]),
+    (1, "dqn", &[]),
+    (0, "plain DQN", PLAIN),
+    (1, "plain DQN", PLAIN),
+    (1, "3 steps", &["replay.returns=3"]),
+    (0, "C51", ATOMS_OF_ONE),
+    (0, "Rainbow", RAINBOW),
 ];
 
 #[derive(Serialize)]
@@ -95,38 +107,48 @@ type Attempt<T> = Result<T, String>;
 
 pub(crate) fn run(options: &Options) -> Done {
     let seeds = options.seeds.unwrap_or(SEEDS);
-    let (mut rows, mut panels) = (Vec::new(), Vec::new());
+    let mut rows = Vec::new();
     println!(
         "{:<14} {:<10} {:>7}  solved  success            median steps to solve",
         "world", "variant", "steps"
     );
-    for (world, steps, variants) in TRIALS {
-        let mut panel = Panel {
-            title: world.into(),
-            x_label: "environment steps".into(),
-            y_label: "success, frozen".into(),
-            y_range: Some((0.0, 1.0)),
-            summary: Summary::MeanAndInterval,
-            ..Panel::default()
-        };
-        for ((variant, set), colour) in variants.iter().zip(1..) {
-            let runs =
-                over_seeds(seeds, |seed| train(world, steps, set, seed).map_err(|error| error.to_string()));
-            let row = row(world, variant, set, steps, runs.into_iter().collect::<Attempt<_>>()?);
-            let points =
-                |run: &Run| run.curve.iter().map(|(steps, success)| (*steps as f64, *success)).collect();
-            let runs = row.seeds.iter().map(points).collect();
-            panel.series.push(Series { label: (*variant).into(), colour, runs });
-            rows.push(row);
-        }
-        let runs = over_seeds(seeds, |seed| random(world, seed).map_err(|error| error.to_string()));
-        let row = row(world, "random", &[], 0, runs.into_iter().collect::<Attempt<_>>()?);
-        panel.levels.push(Level { label: "random".into(), y: row.success.value });
-        rows.push(row);
-        panels.push(panel);
+    for (name, _) in WORLDS {
+        let runs = over_seeds(seeds, |seed| random(name, seed).map_err(|error| error.to_string()));
+        rows.push(row(name, "random", &[], 0, runs.into_iter().collect::<Attempt<_>>()?));
     }
-    curves(options.out.join("dqn.png"), &panels)?;
-    write(options, "dqn", &rows)
+    for (world, variant, set) in TRIALS {
+        let (name, steps) = WORLDS[world];
+        let runs = over_seeds(seeds, |seed| train(name, steps, set, seed).map_err(|error| error.to_string()));
+        rows.push(row(name, variant, set, steps, runs.into_iter().collect::<Attempt<_>>()?));
+        // After each variant, so that a run that is cut short has its first results.
+        write(options, "dqn", &rows)?;
+        let panels: Vec<_> = WORLDS.iter().map(|(name, _)| panel(name, &rows)).collect();
+        curves(options.out.join("dqn.png"), &panels)?;
+    }
+    Ok(())
+}
+
+/// The curves of all variants in a world.
+fn panel(name: &str, rows: &[Row]) -> Panel {
+    let (random, learned): (Vec<&Row>, Vec<&Row>) =
+        rows.iter().filter(|row| row.world == name).partition(|row| row.steps == 0);
+    let points = |run: &Run| run.curve.iter().map(|(steps, success)| (*steps as f64, *success)).collect();
+    let series = learned.iter().zip(1..).map(|(row, colour)| Series {
+        label: row.variant.clone(),
+        colour,
+        runs: row.seeds.iter().map(points).collect(),
+    });
+    let level = |row: &&Row| Level { label: row.variant.clone(), y: row.success.value };
+    Panel {
+        title: name.into(),
+        x_label: "environment steps".into(),
+        y_label: "success, frozen".into(),
+        y_range: Some((0.0, 1.0)),
+        summary: Summary::MeanAndInterval,
+        series: series.collect(),
+        levels: random.iter().map(level).collect(),
+        ..Panel::default()
+    }
 }
 
 fn row(world: &str, variant: &str, set: &[&str], steps: u64, seeds: Vec<Run>) -> Row {

@@ -217,9 +217,10 @@ fn noise_explores_and_is_another_for_the_choice_than_for_its_value() {
     let states = [state.clone(), state.clone()];
     let clip: Clip<_, _, ()> = Clip::new(&states, &[0], Rewards::Given(&[0.0]), None, false);
     let target = |noise, double, index| {
-        learner(&DqnConfig { noise, double, ..small() }).targets(&[clip], &mut ctx(index))[0]
+        learner(&DqnConfig { noise, double, ..small() }).targets(std::slice::from_ref(&clip), &mut ctx(index))
+            [0]
     };
-    let differ = |noise| (0..30).filter(|i| target(noise, true, *i) != target(noise, false, *i)).count();
+    let differ = |noise| (0..30).filter(|&i| target(noise, true, i) != target(noise, false, i)).count();
     assert!(differ(4.0) > 5 && differ(0.0) == 0);
 }
 
