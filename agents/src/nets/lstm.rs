@@ -7,8 +7,8 @@
 //! ```
 //!
 //! The four gates of a step are one matrix product, and their curves one pass over its rows; everything that is read is one
-//! product for all steps, and so are the weights' gradients. In Burn's graph the same takes three times as long
-//! (`docs/results/learners.md`).
+//! product for all steps, and so are the weights' gradients. In Burn's graph the same takes three times as long (`burn_speed.md`,
+//! section 3).
 //!
 //! Sequences stand side by side, the longest first: rows go step by step, and within a step sequence by sequence, so the
 //! sequences that have a step are the first so many, and no row is padding.

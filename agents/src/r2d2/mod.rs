@@ -152,6 +152,9 @@ impl<O, G: Encode> Learner<O, usize, G> for R2d2<O> {
     }
 
     fn act_all(&self, lanes: &mut [Lane<'_, O, G>]) -> Vec<usize> {
+        if lanes.is_empty() {
+            return Vec::new();
+        }
         let width = self.config.memory;
         let state = self.state(lanes.iter().map(|lane| &lane.memory[..]));
         let previous = |lane: &Lane<'_, O, G>| Remembered::read(lane.memory, width).map(|found| found.choice);
@@ -182,6 +185,9 @@ impl<O, G: Encode> Learner<O, usize, G> for R2d2<O> {
     }
 
     fn values(&self, memory: &Memory, s: &O, goals: &[Option<&G>]) -> Vec<f32> {
+        if goals.is_empty() {
+            return Vec::new();
+        }
         let width = self.config.memory;
         let previous = Remembered::read(memory, width).map(|remembered| remembered.choice);
         let state = self.state(std::iter::once(&memory[..]));
