@@ -1,6 +1,6 @@
 //! R2D2 learns DoorKey-5x5 from frames: MiniGrid's own tiles at 8 pixels, 40 × 40 × 3 bytes, one layout a seed.
 //!
-//! No bonus: choices are random at first and the task's reward is found by chance, in 6 to 8 % of random episodes. An
+//! No bonus: choices are random at first, for 10,000 steps without an update, and the task's reward is found by chance. An
 //! evaluation is frozen and has 50 episodes; it counts as failed with the third that fails, for then fewer than 95 % succeed.
 //! Training ends with the second evaluation in a row that does not.
 //!
