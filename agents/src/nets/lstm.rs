@@ -7,8 +7,8 @@
 //! ```
 //!
 //! The four gates of a step are one matrix product, and their curves one pass over its rows; everything that is read is one
-//! product for all steps, and so are the weights' gradients. In Burn's graph the same takes three times as long
-//! (`docs/results/learners.md`).
+//! product for all steps, and so are the weights' gradients. In Burn's graph the same takes three times as long (`burn_speed.md`,
+//! section 3).
 //!
 //! Sequences stand side by side, the longest first: rows go step by step, and within a step sequence by sequence, so the
 //! sequences that have a step are the first so many, and no row is padding.
@@ -223,20 +223,15 @@ fn retreat(
     {
         let (first, last) = gates.split_at_mut(2 * width);
         let ((input, forget), (candidate, output)) = (first.split_at_mut(width), last.split_at_mut(width));
-        // Of one length, as the compiler is to see.
-        let (squashed, before, by_hidden) = (&squashed[..width], &before[..width], &by_hidden[..width]);
-        let by_cell = &mut by_cell[..width];
-        let (input, forget) = (&mut input[..width], &mut forget[..width]);
-        let (candidate, output) = (&mut candidate[..width], &mut output[..width]);
-        for j in 0..width {
-            let (i, f, g, o) = (input[j], forget[j], candidate[j], output[j]);
-            let (s, dh) = (squashed[j], by_hidden[j]);
-            let dc = by_cell[j] + dh * o * (1.0 - s * s);
-            input[j] = dc * g * i * (1.0 - i);
-            forget[j] = dc * before[j] * f * (1.0 - f);
-            candidate[j] = dc * i * (1.0 - g * g);
-            output[j] = dh * s * o * (1.0 - o);
-            by_cell[j] = dc * f;
+        let of_gates = input.iter_mut().zip(forget).zip(candidate.iter_mut().zip(output));
+        let of_states = squashed.iter().zip(before).zip(by_hidden.iter().zip(by_cell));
+        for (((i, f), (g, o)), ((s, before), (dh, by_cell))) in of_gates.zip(of_states) {
+            let dc = *by_cell + dh * *o * (1.0 - s * s);
+            *by_cell = dc * *f;
+            let (by_input, by_candidate) = (dc * *g * *i * (1.0 - *i), dc * *i * (1.0 - *g * *g));
+            *f = dc * before * *f * (1.0 - *f);
+            *o = dh * s * *o * (1.0 - *o);
+            (*i, *g) = (by_input, by_candidate);
         }
     }
 }

@@ -152,6 +152,9 @@ impl<O, G: Encode> Learner<O, usize, G> for R2d2<O> {
     }
 
     fn act_all(&self, lanes: &mut [Lane<'_, O, G>]) -> Vec<usize> {
+        if lanes.is_empty() {
+            return Vec::new();
+        }
         let width = self.config.memory;
         let state = self.state(lanes.iter().map(|lane| &lane.memory[..]));
         let previous = |lane: &Lane<'_, O, G>| Remembered::read(lane.memory, width).map(|found| found.choice);
@@ -161,8 +164,8 @@ impl<O, G: Encode> Learner<O, usize, G> for R2d2<O> {
         let values = self.nets.values(state.hidden.clone(), width, goals);
 
         let states = state.hidden.chunks_exact(width).zip(state.cell.chunks_exact(width));
-        let found = lanes.iter_mut().zip(values.chunks_exact(self.choices)).zip(states);
-        let act = |((lane, values), (hidden, cell)): ((&mut Lane<'_, O, G>, &[f32]), (&[f32], &[f32]))| {
+        let acting = lanes.iter_mut().zip(values.chunks_exact(self.choices)).zip(states);
+        let acted = acting.map(|((lane, values), (hidden, cell))| {
             let ctx = &mut *lane.ctx;
             let rung = match (Remembered::read(lane.memory, width), self.config.rungs) {
                 (Some(remembered), _) => remembered.rung,
@@ -177,11 +180,14 @@ impl<O, G: Encode> Learner<O, usize, G> for R2d2<O> {
             };
             Remembered { hidden, cell, choice, rung }.write(lane.memory);
             choice
-        };
-        found.map(act).collect()
+        });
+        acted.collect()
     }
 
     fn values(&self, memory: &Memory, s: &O, goals: &[Option<&G>]) -> Vec<f32> {
+        if goals.is_empty() {
+            return Vec::new();
+        }
         let width = self.config.memory;
         let previous = Remembered::read(memory, width).map(|remembered| remembered.choice);
         let state = self.state(std::iter::once(&memory[..]));

@@ -38,8 +38,8 @@ pub(in crate::nets) fn in_burn(
     let (mut hidden, mut cell) = start;
     let (mut first, mut out) = (0, Vec::new());
     for &count in sizes {
-        let now = read.clone().slice([first..first + count]);
-        let going_on = |t: Tensor<2>| t.slice([0..count]);
+        let now = read.clone().narrow(0, first, count);
+        let going_on = |t: Tensor<2>| t.narrow(0, 0, count);
         let gates = lstm.layers[0].forward(now) + lstm.layers[1].forward(going_on(hidden));
         let gate = |k: usize| gates.clone().slice([0..count, k * width..(k + 1) * width]);
         let [input, forget, output] = [0, 1, 3].map(|k| activation::sigmoid(gate(k)));
@@ -129,9 +129,8 @@ fn the_derivatives_are_those_of_finite_differences() {
             near(by[part][i], &value, ["dWx", "dWh", "db"][part]);
         }
     }
-    let by_read = floats(ours.read);
-    for i in 0..ROWS * INPUTS {
-        near(by_read[i], &|by| value(&lstm, &nudged(&x, i, by), start()), "dX");
+    for (i, by_read) in floats(ours.read).into_iter().enumerate() {
+        near(by_read, &|by| value(&lstm, &nudged(&x, i, by), start()), "dX");
     }
     for i in 0..4 * WIDTH {
         let from = |by| State { hidden: nudged(&start().hidden, i, by), ..start() };
