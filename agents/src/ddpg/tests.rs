@@ -1,4 +1,5 @@
 use super::*;
+use crate::{Bag, Checkpoint};
 use crate::experience::Rewards;
 use inroads_envs::Seed;
 use rand::RngExt;
