@@ -1,10 +1,10 @@
 //! TD3 with hindsight on the open arena: a point robot starts anywhere and goes to the middle (thesis 4.2.3).
 //!
 //! Episodes have 100 steps, in training and when frozen, and the goal is reached within 0.6 m. Training ends with the episode
-//! that reaches 30,000 steps; one update every four steps, everything else as the registry has `td3-her`. Beside it the same
+//! that reaches 30,000 steps; one update every two steps, everything else as the registry has `td3-her`. Beside it the same
 //! agent that learns of its own goal only, and each with rllab's point (1 m a step) and D4RL's (0.2 m).
 //!
-//! Price: 4 rows × 5 seeds × 7,500 updates of 4 ms: some 10 core-minutes.
+//! Price: 4 rows × 5 seeds × 15,000 updates of 4 ms: some 20 core-minutes.
 
 use inroads::{
     agents::{Context, episode, nets::Backend},
@@ -24,7 +24,7 @@ use crate::{
 };
 
 const AGENT: &str = "td3-her";
-const SET: &[&str] = &["memory.updates_per_step=0.25"];
+const SET: &[&str] = &["memory.updates_per_step=0.5"];
 const ALONE: &str = "hindsight.strategy=none";
 /// Steps an episode, trained or frozen.
 const LIMIT: u32 = 100;
