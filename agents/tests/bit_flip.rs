@@ -201,7 +201,7 @@ fn solved(n: usize, agent: &impl Agent<Vec<f32>, usize>) -> usize {
 fn hindsight_flips_eight_bits() {
     for strategy in [Strategy::Future, Strategy::Final, Strategy::Achieved] {
         let mut agent = agent(8, dqn(8), strategy);
-        train(8, &mut agent, 0..1500);
+        train(8, &mut agent, 0..1000);
         let solved = solved(8, &agent);
         println!("{strategy:?}: {solved} of 200");
         assert!(solved >= 190, "{strategy:?}: {solved} of 200");
@@ -211,7 +211,7 @@ fn hindsight_flips_eight_bits() {
 #[test]
 fn without_hindsight_fifteen_bits_are_too_many() {
     let mut agent = agent(15, dqn(15), Strategy::None);
-    train(15, &mut agent, 0..1500);
+    train(15, &mut agent, 0..1000);
     let solved = solved(15, &agent);
     println!("plain: {solved} of 200");
     assert!(solved <= 4, "{solved} of 200");

@@ -220,21 +220,21 @@ mod tests {
 
     #[test]
     fn who_falls_or_jumps_too_high_is_out() {
-        for (height, upright) in [(0.19, false), (0.75, true), (1.6, false)] {
-            let mut env = AntRun::new().unwrap();
-            let mut state = env.configuration().clone();
-            (state.q[2], state.v[2]) = (height, if upright { 0.0 } else { -0.5 });
-            if height < 0.2 {
-                // On its back, with its legs in the air, and so nothing under it but the torso.
-                (state.q[3], state.q[4], state.q[2]) = (0.0, 1.0, 0.3);
-                state.v[2] = -6.0;
-            }
+        let mut env = AntRun::new().unwrap();
+        let mut state = env.configuration().clone();
+        let action = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0];
+        for (height, fallen) in [(0.19, true), (0.21, false), (0.99, false), (1.01, true)] {
+            state.q[2] = height;
             env.restore(&state).unwrap();
-            let Step { reward, end } = env.step(&vec![0.0; 8]).unwrap();
-            assert_eq!(end.is_none(), upright, "{height}: {:?}", env.configuration().q);
-            assert_eq!(reward > 0.5, upright, "who is out is not paid for standing: {reward}");
-            assert_eq!(env.step(&vec![0.0; 8]).is_err(), !upright);
+            let (reward, out) = env.paid(&action, 0.1);
+            let standing = if fallen { 0.0 } else { 1.0 };
+            assert!((reward - (2.0 + standing - 1.0)).abs() < 1e-5 && out == fallen, "{height}: {reward}");
         }
+        state.q[2] = 1.6;
+        env.restore(&state).unwrap();
+        let Step { reward, end } = env.step(&vec![0.0; 8]).unwrap();
+        assert!(reward.abs() < 0.5 && end == Some(End::Terminated), "{reward} {end:?}");
+        assert_eq!(env.step(&vec![0.0; 8]), Err(Refused::Over));
     }
 
     #[test]

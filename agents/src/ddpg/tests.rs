@@ -1,5 +1,6 @@
 use super::*;
 use crate::experience::Rewards;
+use crate::{Bag, Checkpoint};
 use inroads_envs::Seed;
 use rand::RngExt;
 

@@ -134,12 +134,13 @@ fn a_goal_is_joined_to_the_observation_before_and_after_a_step() {
     // γ = 0.5 that is worth 2 and 0, and only where both states are read with the same goal.
     let mut learner = learner(&Td3Config { discount: 0.5, ..small() }, 1);
     let goals = [Bit(1.0), Bit(-1.0)];
-    let (observations, action) = ([vec![0.2, -0.4], vec![0.2, -0.4]], [vec![0.1]]);
-    let clip = |goal: usize| {
-        let rewards = Rewards::Given(if goal == 0 { &[1.0] } else { &[0.0] });
-        Clip::new(&observations, &action, rewards, Some(&goals[goal]), false)
+    let observations = [vec![0.2, -0.4], vec![0.2, -0.4]];
+    let actions: Vec<[Vec<f32>; 1]> = (0..64).map(|i| [vec![i as f32 / 32.0 - 1.0]]).collect();
+    let clip = |i: usize| {
+        let rewards = Rewards::Given(if i.is_multiple_of(2) { &[1.0] } else { &[0.0] });
+        Clip::new(&observations, &actions[i], rewards, Some(&goals[i % 2]), false)
     };
-    let clips: Vec<_> = (0..32).map(|i| clip(i % 2)).collect();
+    let clips: Vec<_> = (0..64).map(clip).collect();
     (0..800).for_each(|i| _ = learner.learn(&clips, &mut Context::training(Seed(0), i)));
     let values = learner.values(&Memory::new(), &observations[0], &[Some(&goals[0]), Some(&goals[1])]);
     assert!((values[0] - 2.0).abs() < 0.3 && values[1].abs() < 0.3, "{values:?}");
