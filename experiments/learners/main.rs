@@ -9,6 +9,8 @@
 #[path = "../support.rs"]
 mod support;
 
+mod cfn;
+
 use std::{path::PathBuf, process::ExitCode};
 
 use clap::Parser;
@@ -17,7 +19,7 @@ use clap::Parser;
 type Experiment = fn(&Options) -> support::Done;
 
 /// Experiments by name.
-const EXPERIMENTS: &[(&str, Experiment)] = &[];
+const EXPERIMENTS: &[(&str, Experiment)] = &[("cfn", cfn::run), ("cfn-tuning", cfn::tune)];
 
 /// Runs one experiment, or all of them.
 #[derive(Debug, Parser)]
