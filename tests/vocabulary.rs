@@ -88,6 +88,13 @@ fn agents_with_a_bonus_from_networks() {
     for agent in ["counts-q", "im-dsg", "abstract-subgoals"] {
         all_train(agent, "nine-cells", 6, &keys);
     }
+    let keys: [(&str, &[&str]); 4] = [
+        ("novelty.counts", &["states", "features", "cfn", "rnd"]),
+        ("novelty.cfn.warm_up", &["20"]),
+        ("novelty.rnd.warm_up", &["20"]),
+        ("memory.warm_up", &["40"]),
+    ];
+    all_train("cfn", "nine-cells", 6, &keys);
 }
 
 #[test]

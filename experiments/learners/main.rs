@@ -6,14 +6,15 @@
 
 #![allow(clippy::print_stdout)] // what the command is for
 
+mod cfn;
 mod dqn;
 mod mpc;
 mod r2d2_frames;
 mod recall;
-#[path = "../support.rs"]
-mod support;
 mod td3_ant;
 mod td3_reacher;
+#[path = "../support.rs"]
+mod support;
 
 use std::{path::PathBuf, process::ExitCode};
 
@@ -24,6 +25,8 @@ type Experiment = fn(&Options) -> support::Done;
 
 /// Experiments by name.
 const EXPERIMENTS: &[(&str, Experiment)] = &[
+    ("cfn", cfn::run),
+    ("cfn-tuning", cfn::tune),
     ("dqn", dqn::run),
     ("mpc", mpc::run),
     ("r2d2-frames", r2d2_frames::run),
