@@ -32,7 +32,7 @@ pub struct DynamicsConfig {
     pub batch: usize,
     /// Models that share the candidates among them.
     pub models: usize,
-    /// Every so manieth episode is not learned from and tells how good the model is; 0: none.
+    /// One in so many episodes is not learned from, and tells how good the model is; 0: none.
     pub held_out: u64,
 }
 
@@ -198,7 +198,8 @@ impl Dynamics {
         let (width, changes) = (self.inputs.width(), self.changes.width());
         let n = inputs.len() / width;
         let mut out = vec![0.0; n * changes];
-        for (model, net) in self.nets.iter().enumerate() {
+        // No product of matrices without rows: not every backend has one.
+        for (model, net) in self.nets.iter().enumerate().take(n) {
             let own = || (model..n).step_by(models);
             let rows = own().flat_map(|i| &inputs[i * width..(i + 1) * width]).copied().collect();
             let found = net.predict(rows);

@@ -246,7 +246,9 @@ mod tests {
                 let dot: f32 = (TURN..REST).map(|i| again[i] * after[i]).sum();
                 for (i, (a, b)) in again.iter().zip(&after).enumerate() {
                     let b = if (TURN..REST).contains(&i) { b * dot.signum() } else { *b };
-                    assert!((a - b).abs() < 1e-5, "{i}: {a} {b}");
+                    // Half a turn leaves √(1 − |turn|²) few digits.
+                    let digits = if (TURN..REST).contains(&i) { 1e-3 } else { 1e-5 };
+                    assert!((a - b).abs() < digits, "{i}: {a} {b}");
                 }
             }
         }
