@@ -30,6 +30,12 @@ fn an_agent_that_cannot_act_there_is_answered_with_those_that_can() {
 }
 
 #[test]
+fn an_agent_that_goes_for_a_place_needs_a_task_that_is_one() {
+    let text = refused(&["td3-her", "ant"]);
+    assert!(text.contains("`ant` has no goal") && text.contains("point-reacher"), "{text}");
+}
+
+#[test]
 fn a_malformed_map_or_body_is_named_with_its_place() {
     let folder = Folder::new("world");
     let file = folder.join("file");

@@ -56,6 +56,13 @@ fn chains_with_every_kind_of_set_subgoal_and_choice() {
         ("initiation.classifier", &["nearest", "svm"]),
     ];
     all_train("dsc-tabular", "corridor-5", 12, &keys);
+    // A network of one class only is everywhere, so it makes no dual sets.
+    let keys: [(&str, &[&str]); 3] = [
+        ("initiation.sets", &["binary", "weighted"]),
+        ("initiation.classifier", &["neural"]),
+        ("initiation.neural.updates", &["10"]),
+    ];
+    all_train("dsc-tabular", "corridor-5", 12, &keys);
 }
 
 #[test]
@@ -67,6 +74,20 @@ fn explorers_with_every_kind_of_planner_novelty_and_name() {
     ];
     all_train("im-dsg", "nine-cells", 12, &keys);
     all_train("abstract-subgoals", "nine-cells", 12, &keys);
+}
+
+#[test]
+fn agents_with_a_bonus_from_networks() {
+    let keys: [(&str, &[&str]); 5] = [
+        ("novelty.counts", &["cfn", "rnd"]),
+        ("novelty.cfn.warm_up", &["20"]),
+        ("novelty.rnd.warm_up", &["20"]),
+        ("novelty.cfn.batch", &["8"]),
+        ("novelty.rnd.batch", &["8"]),
+    ];
+    for agent in ["counts-q", "im-dsg", "abstract-subgoals"] {
+        all_train(agent, "nine-cells", 6, &keys);
+    }
 }
 
 #[test]
@@ -84,6 +105,9 @@ fn an_unknown_part_is_answered_with_those_that_there_are() {
     let config = Config::defaults("dsc-tabular", "rooms").unwrap();
     let error = config.with_assignment("initiation.sets=convex").unwrap_err().to_string();
     assert!(error.contains("convex") && error.contains("weighted"), "{error}");
+    let config = Config::defaults("dsc-tabular", "rooms").unwrap().with_assignment("initiation.sets=dual");
+    let error = config.unwrap().with_assignment("initiation.classifier=neural").unwrap_err().to_string();
+    assert!(error.contains("neural") && error.contains("nearest"), "{error}");
 }
 
 #[test]

@@ -1,7 +1,9 @@
-//! Sets learned from examples: what an initiation set (thesis 3.1.3) needs of a classifier, and three of them.
+//! Sets learned from examples: what an initiation set (thesis 3.1.3, 5.1.2) needs of a classifier, and four of them.
 
+mod neural;
 mod odds;
 
+pub use neural::{Neural, NeuralConfig};
 pub use odds::{Odds, OddsConfig};
 
 use serde::{Deserialize, Serialize};
@@ -25,6 +27,37 @@ pub trait Classifier: crate::Checkpoint {
     fn contains(&self, row: &[f32]) -> bool {
         self.score(row) > 0.0
     }
+}
+
+/// A classifier of examples that count more or less (thesis 5.1.2), which says how probable membership is.
+pub trait Weighing: Classifier {
+    /// Replaces what was learned by a fit to rows, whether each is inside, and how much it counts.
+    ///
+    /// # Errors
+    /// [`Unfit`] names what cannot be used; what was learned before stays then.
+    fn fit_weighted(&mut self, rows: &[Vec<f32>], labels: &[bool], weights: &[f32]) -> Result<(), Unfit>;
+
+    /// How probable it is that the row is inside; 0 before the first fit, and where nothing is known.
+    fn probability(&self, row: &[f32]) -> f32;
+}
+
+/// [`Classifier::fit`] of one whose examples may weigh: all weigh the same.
+fn fit_equal(
+    classifier: &mut impl Weighing,
+    positives: &[Vec<f32>],
+    negatives: &[Vec<f32>],
+) -> Result<(), Unfit> {
+    if positives.is_empty() {
+        return Err(Unfit::NoSamples);
+    }
+    let rows = [positives, negatives].concat();
+    let labels: Vec<_> = (0..rows.len()).map(|i| i < positives.len()).collect();
+    classifier.fit_weighted(&rows, &labels, &vec![1.0; rows.len()])
+}
+
+/// What an example outside and one inside count where either class counts 1 in sum (Japkowicz and Stephen 2002).
+fn class_weights(labels: &[bool]) -> [f32; 2] {
+    [false, true].map(|class| 1.0 / labels.iter().filter(|label| **label == class).count().max(1) as f32)
 }
 
 /// What to do with negatives.

@@ -38,6 +38,17 @@ pub fn proportional(weights: &[f64], n: usize, rng: &mut Rng) -> Vec<usize> {
     (0..n).map(pick).collect()
 }
 
+/// Up to `n` different indices, drawn one after the other by their weights, which are above 0 (Efraimidis and Spirakis
+/// 2006), in ascending order.
+pub fn different(weights: &[f64], n: usize, rng: &mut Rng) -> Vec<usize> {
+    let mut keys: Vec<_> =
+        weights.iter().enumerate().map(|(i, weight)| (rng.random::<f64>().ln() / weight, i)).collect();
+    keys.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut drawn: Vec<_> = keys.into_iter().take(n).map(|(_, i)| i).collect();
+    drawn.sort_unstable();
+    drawn
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -64,5 +75,13 @@ mod tests {
         assert!(proportional(&[], 5, &mut rng).is_empty());
         let uniform = proportional(&[0.0, 0.0], 100, &mut rng);
         assert!(uniform.contains(&0) && uniform.contains(&1));
+    }
+
+    #[test]
+    fn different_draws_take_everything_when_there_is_room_and_the_heavier_sooner() {
+        let mut rng = Seed(0).stream("test", 0);
+        assert_eq!(different(&[1.0, 2.0, 0.1], 5, &mut rng), [0, 1, 2]);
+        let first = (0..4000).filter(|_| different(&[1.0, 3.0], 1, &mut rng) == [0]).count();
+        assert!((first as i64 - 1000).abs() < 120);
     }
 }

@@ -1,9 +1,11 @@
 //! From observations to rows of numbers that networks read.
 
+mod inputs;
 mod one_hot;
 mod patches;
 
-pub use one_hot::{OneHot, OneHotError};
+pub(crate) use inputs::Inputs;
+pub use one_hot::{Choices, OneHot, OneHotError};
 pub use patches::{PatchError, Patches};
 
 use inroads_envs::{Kind, Space};

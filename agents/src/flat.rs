@@ -73,7 +73,7 @@ where
     L: Learner<O, A, ()>,
 {
     fn frozen(&self) -> Box<dyn Actor<O, A> + '_> {
-        Box::new(Greedy { learner: self.curious.learner(false), memory: Memory::new() })
+        Box::new(Greedy::<_, ()>::new(self.curious.learner(false), None))
     }
 
     fn updates(&self) -> Vec<(&'static str, u64)> {
@@ -104,18 +104,26 @@ where
 }
 
 /// A learner watched without learning.
-struct Greedy<'a, L> {
+pub(crate) struct Greedy<'a, L, G> {
     learner: &'a L,
+    goal: Option<&'a G>,
     memory: Memory,
 }
 
-impl<O, A, L: Learner<O, A, ()>> Actor<O, A> for Greedy<'_, L> {
+impl<'a, L, G> Greedy<'a, L, G> {
+    /// On the way to a goal; none for the task.
+    pub(crate) fn new(learner: &'a L, goal: Option<&'a G>) -> Self {
+        Self { learner, goal, memory: Memory::new() }
+    }
+}
+
+impl<O, A, G, L: Learner<O, A, G>> Actor<O, A> for Greedy<'_, L, G> {
     fn begin(&mut self, _: &O, _: &mut Context) {
         self.memory.clear();
     }
 
     fn act(&mut self, s: &O, ctx: &mut Context) -> A {
-        self.learner.act(&mut self.memory, s, None, ctx)
+        self.learner.act(&mut self.memory, s, self.goal, ctx)
     }
 
     fn observe(&mut self, _: &Transition<O, A>, _: &mut Context) {}

@@ -1,8 +1,10 @@
-//! Learners with no notion of options: replay, networks on Burn, DDPG, double DQN, tables, policy evaluation, novelty,
-//! support vector machines.
+//! Learners with no notion of options: replay, hindsight, networks on Burn, DDPG, TD3, the DQN family, R2D2, tables, policy
+//! evaluation, novelty, model-based control, support vector machines.
 //!
 //! Burn stands in this room only, and is compiled once: rows of numbers in, rows of numbers out.
 
+mod actor_critic;
+pub mod aimed;
 pub mod checkpoint;
 pub mod classify;
 pub mod curious;
@@ -14,18 +16,24 @@ pub mod episode;
 pub mod evaluate;
 pub mod experience;
 pub mod flat;
+pub mod goal;
+pub mod hindsight;
 pub mod lanes;
 pub mod lspi;
+pub mod mpc;
 pub mod nets;
 pub mod noise;
 pub mod novelty;
 mod pace;
 mod practice;
+pub mod r2d2;
 pub mod replay;
 mod running;
 pub mod svm;
 pub mod tabular;
+pub mod td3;
 
+pub use aimed::Aimed;
 pub use checkpoint::{Bag, Checkpoint, Corrupt};
 pub use curious::Curious;
 pub use encode::{Encode, Encoder};
@@ -33,7 +41,9 @@ pub use episode::{Summary, episode};
 pub use evaluate::Evaluator;
 pub use experience::{Clip, Experience, Lesson};
 pub use flat::Flat;
+pub use goal::Goal;
 pub use lanes::{Crowd, round};
+pub use mpc::Mpc;
 pub use novelty::Novelty;
 pub use pace::Pace;
 pub use practice::Practice;

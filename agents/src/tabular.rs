@@ -6,8 +6,10 @@ use inroads_envs::{Annotated, Bits, Frame};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
-pub use crate::draw::argmax;
-use crate::{Clip, Context, Learned, Learner, Memory, checkpoint, draw::greatest};
+use crate::{
+    Clip, Context, Learned, Learner, Memory, checkpoint,
+    draw::{argmax, greatest},
+};
 
 /// What can name a row of a table: observations, goals.
 pub trait Key {

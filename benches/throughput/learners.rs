@@ -1,4 +1,4 @@
-//! What a learner costs: DDPG, and beside it the matrix products that it cannot do without.
+//! What a learner costs: DDPG, and beside it the matrix products that it cannot do without; TD3.
 
 use std::{cell::RefCell, hint::black_box, rc::Rc, sync::Arc};
 
@@ -7,9 +7,10 @@ use inroads::{
     agents::{
         Clip, Context, Encoder, Learner, Memory,
         ddpg::{Ddpg, DdpgConfig},
-        encode::Scaled,
+        encode::{Scaled, Select},
         experience::Rewards,
         nets::Backend,
+        td3::{Td3, Td3Config},
     },
     envs::{Seed, registry},
 };
@@ -59,6 +60,43 @@ pub(crate) fn ddpg() -> Vec<Workload> {
     let row = Products::of_acting(inputs, 2, config.hidden[0], config.hidden[1]);
     let row = Workload::repeated("agents/ddpg/act, products alone", move || row.compute());
     vec![acting, update, alone, row]
+}
+
+/// TD3 of its authors' size (256-256, batch 256) for an ant: 31 numbers seen (goal included), 8 done. One update in two is of
+/// the actor and the targets too.
+pub(crate) fn td3() -> Vec<Workload> {
+    const SEEN: usize = 31;
+    let config = Td3Config::default();
+    let mut rng = Seed(0).stream("bench", 2);
+    let encoder = Arc::new(Select::new(&(0..SEEN).collect::<Vec<_>>()));
+    let mut learner: Td3<Vec<f32>> = Td3::new(encoder, 0, 8, &config, Backend::Flex, &mut rng);
+    let mut rows = |n: usize, width: usize| -> Vec<Vec<f32>> {
+        (0..n).map(|_| (0..width).map(|_| rng.random_range(-1.0..1.0)).collect()).collect()
+    };
+    let (observations, actions) = (rows(config.batch + 1, SEEN), rows(config.batch, 8));
+    let clips = move |observations: &[Vec<f32>], actions: &[Vec<f32>], learner: &mut Td3<Vec<f32>>| {
+        let mut ctx = Context::training(Seed(0), 0);
+        let clips: Vec<Clip<Vec<f32>, Vec<f32>, ()>> = (0..actions.len())
+            .map(|i| {
+                let (states, acts) = (&observations[i..=i + 1], &actions[i..=i]);
+                Clip::new(states, acts, Rewards::Given(&[-1.0]), None, false)
+            })
+            .collect();
+        black_box(learner.learn(&clips, &mut ctx));
+    };
+    // Before its first update it would act without its network.
+    clips(&observations, &actions, &mut learner);
+    let acting = {
+        let (learner, observation, mut memory) = (learner.clone(), observations[0].clone(), Memory::new());
+        let mut ctx = Context::training(Seed(0), 0);
+        Workload::repeated("agents/td3/act", move || {
+            black_box(learner.act(&mut memory, &observation, None::<&()>, &mut ctx));
+        })
+    };
+    let update = Workload::repeated("agents/td3/update", move || {
+        clips(&observations, &actions, &mut learner);
+    });
+    vec![acting, update]
 }
 
 /// Matrix products on the backend of the learners, without anything around them.

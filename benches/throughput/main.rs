@@ -7,11 +7,13 @@
 mod bodies;
 mod calibration;
 mod compare;
+mod control;
 mod evaluator;
 mod learners;
 mod measure;
 mod planning;
 mod processor;
+mod recurrent;
 mod training;
 mod workload;
 mod worlds;
@@ -84,6 +86,9 @@ fn run(options: &Options) -> Result<bool, String> {
     let mut workloads = bodies::bodies();
     workloads.extend(worlds::worlds());
     workloads.extend(learners::ddpg());
+    workloads.extend(recurrent::r2d2());
+    workloads.extend(learners::td3());
+    workloads.extend(control::control());
     workloads.extend(training::training());
     workloads.extend(evaluator::evaluator());
     workloads.extend(planning::planning());

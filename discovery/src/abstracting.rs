@@ -8,6 +8,7 @@
 
 use inroads_agents::{
     Actor, Agent, Checkpoint, Context, Curious, Experience, Learner, Memory, Transition, checkpoint,
+    experience::discounted,
 };
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
@@ -15,7 +16,6 @@ use serde::{Deserialize, Serialize};
 use crate::{
     Call, Choice, Discovery, Goal, GraphExplorer, Hierarchy, Outcome, PolicyOverSkills, SkillId, SkillPolicy,
     Skilled,
-    execution::discounted,
     frontier::Frontier,
     graph::{ExplorerLane, Vertex},
     record::{GraphRecord, Place, PlanRecord},
@@ -170,7 +170,8 @@ where
         }
         // What explores is none of the options.
         if out.call.skill != SkillId::GLOBAL || !lane.explores() {
-            let (reward, discount) = discounted(&episode.rewards[from..to], self.config.discount);
+            let (reward, discount) =
+                discounted(episode.rewards[from..to].iter().copied(), self.config.discount);
             lane.choices.push(Choice {
                 episode: out.episode,
                 steps: out.steps.clone(),

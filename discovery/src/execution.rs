@@ -48,12 +48,6 @@ pub struct Outcome<G> {
     pub end: Option<End>,
 }
 
-/// Σ γᵗ r over some steps, and γ to their number: the two coefficients of equation 3.3, whose exponent counts the
-/// steps taken (`decisions.md`).
-pub fn discounted(rewards: &[f32], gamma: f32) -> (f32, f32) {
-    rewards.iter().fold((0.0, 1.0), |(sum, discount), r| (sum + discount * r, discount * gamma))
-}
-
 /// What differs between the systems of the thesis: which skill to call, and what to learn from what happened.
 ///
 /// Deciding and acting borrow the method; only finishing and learning change it. What lasts one episode of one
@@ -118,6 +112,11 @@ impl Driver {
             self.memory.clear();
             self.owner = Some(skill);
         }
+    }
+
+    /// Who acted last; nobody before the first.
+    pub fn owner(&self) -> Option<SkillId> {
+        self.owner
     }
 
     /// The memory of who acts.
@@ -286,17 +285,5 @@ impl<O, A, D: Discovery<O, A>> Actor<O, A> for Watched<'_, O, A, D, D::Lane, D::
 
     fn source(&self) -> usize {
         self.execution.last.index()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn equation_3_3_discounts_by_the_steps_taken() {
-        let (reward, discount) = discounted(&[-1.0, -1.0, -1.0], 0.9);
-        assert!((reward + discount * -5.0 - -6.355).abs() < 1e-6);
-        assert_eq!(discounted(&[], 0.9), (0.0, 1.0));
     }
 }

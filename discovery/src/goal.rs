@@ -1,29 +1,13 @@
-//! Goals as values: what says whether a state attains it, and what a network can read.
+//! Goals about features of a state and about proto-goals.
 
 use inroads_agents::{
     Encode, Key,
     tabular::{key, thousandths},
 };
 use inroads_envs::{Annotated, Bits};
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use serde::{Deserialize, Serialize};
 
-/// Something that a state attains or does not: β of the skill that pursues it.
-pub trait Goal<O>: Clone + PartialEq + Encode + Key + Serialize + DeserializeOwned {
-    /// Whether `s` attains it.
-    fn reached(&self, s: &O) -> bool;
-
-    /// The features of a state that it asks for, and their values; none where it is not about features.
-    fn kept(&self) -> Vec<(u32, f32)> {
-        Vec::new()
-    }
-}
-
-/// Skills that have but one subgoal each need no goal to tell it by.
-impl<O> Goal<O> for () {
-    fn reached(&self, _: &O) -> bool {
-        false
-    }
-}
+pub use inroads_agents::Goal;
 
 /// Some features of a state have these values, more or less: a ball around a point of some dimensions (ε_g of thesis
 /// 6.1.1), all of a state (equation 7.9, for symbols), or the few of its features that matter (9.2.4).

@@ -1,6 +1,6 @@
 //! What tables and pictures are drawn from, as plain data.
 
-use inroads_agents::{Actor, Agent, Flat};
+use inroads_agents::{Actor, Agent, Aimed, Flat, Mpc};
 use serde::{Deserialize, Serialize};
 
 use crate::chain::Phase;
@@ -171,3 +171,7 @@ pub trait Skilled<O, A>: Agent<O, A> {
 }
 
 impl<O, A, L> Skilled<O, A> for Flat<O, A, L> where Self: Agent<O, A> {}
+
+impl<O, A, G, L> Skilled<O, A> for Aimed<O, A, G, L> where Self: Agent<O, A> {}
+
+impl Skilled<Vec<f32>, Vec<f32>> for Mpc {}

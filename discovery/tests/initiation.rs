@@ -94,6 +94,8 @@ fn values_follow_the_policy_and_classifiers_of_outcomes_do_not() {
     near(&probability(Weights::Value), &latest.map(|(v, n)| share(3.0 * v, n * (1.0 - v))));
     near(&probability(Weights::Prior), &latest.map(|(v, n)| share(3.0, n * (1.0 - v))));
     near(&probability(Weights::Equal), &[0.5, 3.0 / 7.0, 3.0 / 8.0]);
+    // algorithms.md 14, IVF (4): where V is 0.9.
+    near(&[Weights::Value.of(true, 0.9), Weights::Value.of(false, 0.9)], &[0.9, 0.1]);
 }
 
 #[test]

@@ -8,6 +8,7 @@
 #[cfg(test)]
 extern crate self as inroads_envs;
 
+pub mod ant_run;
 pub mod baba;
 mod capability;
 pub mod certificate;
@@ -23,6 +24,7 @@ mod observation;
 pub mod pinball;
 pub mod probes;
 pub mod reacher;
+pub mod recall;
 pub mod registry;
 mod render;
 pub mod river;
@@ -32,6 +34,7 @@ pub mod sokoban;
 mod spec;
 pub mod taxi;
 pub mod vector;
+pub mod visual_grid;
 pub mod visual_taxi;
 pub mod world;
 

@@ -10,8 +10,8 @@ use crate::maze::{
 use crate::world::{AnnotatedWorld, AnyWorld, Layout, Question, See, Wanted};
 use crate::{Annotated, Domain, Environment, Frame, Refused, Spec, Step};
 use crate::{
-    baba, corridor, grid, manipulation, montezuma, pinball, probes, reacher, river, rooms, sokoban, taxi,
-    visual_taxi,
+    ant_run, baba, corridor, grid, manipulation, montezuma, pinball, probes, reacher, recall, river, rooms,
+    sokoban, taxi, visual_grid, visual_taxi,
 };
 
 /// An environment of one of the kinds of observation and action that there are.
@@ -104,9 +104,12 @@ impl Entry {
 pub fn entries() -> impl Iterator<Item = &'static Entry> {
     [
         maze::ENTRIES,
+        ant_run::ENTRIES,
         reacher::ENTRIES,
         corridor::ENTRIES,
+        recall::ENTRIES,
         rooms::ENTRIES,
+        visual_grid::ENTRIES,
         manipulation::ENTRIES,
         grid::ENTRIES,
         sokoban::ENTRIES,
@@ -394,7 +397,7 @@ mod tests {
             assert_eq!(env.spec().name, entry.name);
             // A thousand steps of an ant take a tenth of a second; one seed, played three times, has to do.
             let options = check::Options {
-                episodes: if entry.name.starts_with("ant-") { 1 } else { 4 },
+                episodes: if entry.name.starts_with("ant") { 1 } else { 4 },
                 ..Default::default()
             };
             let verdict = match env {

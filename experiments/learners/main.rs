@@ -6,8 +6,14 @@
 
 #![allow(clippy::print_stdout)] // what the command is for
 
+mod dqn;
+mod mpc;
+mod r2d2_frames;
+mod recall;
 #[path = "../support.rs"]
 mod support;
+mod td3_ant;
+mod td3_reacher;
 
 use std::{path::PathBuf, process::ExitCode};
 
@@ -17,7 +23,14 @@ use clap::Parser;
 type Experiment = fn(&Options) -> support::Done;
 
 /// Experiments by name.
-const EXPERIMENTS: &[(&str, Experiment)] = &[];
+const EXPERIMENTS: &[(&str, Experiment)] = &[
+    ("dqn", dqn::run),
+    ("mpc", mpc::run),
+    ("r2d2-frames", r2d2_frames::run),
+    ("recall", recall::run),
+    ("td3-ant", td3_ant::run),
+    ("td3-reacher", td3_reacher::run),
+];
 
 /// Runs one experiment, or all of them.
 #[derive(Debug, Parser)]

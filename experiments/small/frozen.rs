@@ -1,6 +1,6 @@
 //! Training with frozen evaluations on the way: what the experiments with proto-goals share.
 
-use std::{collections::BTreeMap, error::Error};
+use std::{collections::BTreeMap, error::Error, ops::Range};
 
 use inroads::{
     agents::{Context, episode, nets::Backend},
@@ -15,6 +15,8 @@ use inroads::{
     },
 };
 use serde::Serialize;
+
+use crate::support::over_seeds;
 
 /// What went wrong, in words: seeds run on threads, which hand over nothing else.
 pub(crate) type Failure = String;
@@ -63,6 +65,15 @@ pub(crate) struct Protocol {
     pub(crate) fewest: Vec<u32>,
 }
 
+impl Protocol {
+    /// SparseTaxi for so many steps, evaluated from all of its starts.
+    pub(crate) fn taxi(steps: u64) -> Result<Self, Failure> {
+        let world = "sparse-taxi".to_owned();
+        let (starts, fewest) = taxi_starts(&world)?;
+        Ok(Self { world, layout: None, steps, until_solved: false, every: 25, starts, fewest })
+    }
+}
+
 /// An evaluation.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Point {
@@ -94,9 +105,10 @@ impl Trial {
     }
 }
 
-/// Trains one seed.
-pub(crate) fn trial(recipe: &Recipe, protocol: &Protocol, seed: u64) -> Result<Trial, Failure> {
-    attempt(recipe, protocol, seed).map_err(|error| error.to_string())
+/// Trains some seeds.
+pub(crate) fn trials(recipe: &Recipe, protocol: &Protocol, seeds: Range<u64>) -> Result<Vec<Trial>, Failure> {
+    let trial = |i| attempt(recipe, protocol, seeds.start + i).map_err(|error| error.to_string());
+    over_seeds(seeds.end - seeds.start, trial).into_iter().collect()
 }
 
 fn attempt(recipe: &Recipe, protocol: &Protocol, seed: u64) -> Attempt<Trial> {
@@ -154,7 +166,7 @@ fn run<O: Clone + Default>(
 }
 
 /// Seeds whose episodes begin in each of SparseTaxi's 300 starts, one each, and the fewest steps from there.
-pub(crate) fn taxi_starts(world: &str) -> Result<(Vec<u64>, Vec<u32>), Failure> {
+fn taxi_starts(world: &str) -> Result<(Vec<u64>, Vec<u32>), Failure> {
     let AnyEnvironment::Choices(mut env) = registry::make(world).map_err(|error| error.to_string())? else {
         return Err("taxis are driven by choices".into());
     };

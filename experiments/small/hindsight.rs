@@ -10,11 +10,10 @@ use serde::Serialize;
 
 use crate::{
     Options,
-    frozen::{Protocol, Recipe, Trial, taxi_starts, trial},
-    support::{Done, over_seeds, write},
+    frozen::{Protocol, Recipe, Trial, trials},
+    support::{Done, write},
 };
 
-const WORLD: &str = "sparse-taxi";
 const STEPS: u64 = 24_000;
 const SEEDS: u64 = 20;
 
@@ -39,22 +38,11 @@ struct Row {
 
 pub(crate) fn run(options: &Options) -> Done {
     let seeds = options.seeds.unwrap_or(SEEDS);
-    let (starts, fewest) = taxi_starts(WORLD)?;
-    let protocol = Protocol {
-        world: WORLD.into(),
-        layout: None,
-        steps: STEPS,
-        until_solved: false,
-        every: 25,
-        starts,
-        fewest,
-    };
+    let protocol = Protocol::taxi(STEPS)?;
     let mut rows = Vec::new();
     for (label, relabel) in [("novelty", "novel"), ("uniform", "uniform"), ("all attained", "all")] {
         let recipe = Recipe::new(label, "proto-goals", &[&format!("goals.relabel={relabel}")]);
-        let trials: std::result::Result<Vec<_>, _> =
-            over_seeds(seeds, |seed| trial(&recipe, &protocol, seed)).into_iter().collect();
-        let trials = trials?;
+        let trials = trials(&recipe, &protocol, 0..seeds)?;
         rows.push(Row {
             solved: trials.iter().filter(|trial| trial.solved().is_some()).count(),
             steps: median(&trials.iter().map(steps).collect::<Vec<_>>()).unwrap_or(f64::NAN),

@@ -13,10 +13,10 @@
 use std::sync::Arc;
 
 use inroads::agents::classify::{Odds, OddsConfig};
+use inroads::agents::draw::argmax;
 use inroads::agents::encode::Select;
 use inroads::agents::evaluate::{Table, TableConfig};
 use inroads::agents::experience::Aim;
-use inroads::agents::tabular::argmax;
 use inroads::agents::{Context, Experience, Lesson, Transition};
 use inroads::discovery::initiation::{Bonus, IvfConfig, WeightedConfig, Weights};
 use inroads::discovery::{Initiation, Ivf, SkillId, Weighted};

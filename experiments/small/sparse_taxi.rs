@@ -8,6 +8,8 @@
 //! Price: (15 settings × 2 seeds + 3 agents × 20 seeds) × 40,000 steps, about 0.02 ms a step for Q-learning and 0.15 for
 //! proto-goals: some 7 core-minutes.
 
+use std::ops::Range;
+
 use inroads::{
     discovery::record::GoalState,
     figures::{Panel, Series, Summary, curves},
@@ -17,14 +19,13 @@ use serde::Serialize;
 
 use crate::{
     Options,
-    frozen::{Failure, Protocol, Recipe, Trial, taxi_starts, trial},
-    support::{Done, over_seeds, write},
+    frozen::{Failure, Protocol, Recipe, Trial, trials},
+    support::{Done, write},
 };
 
-const WORLD: &str = "sparse-taxi";
 const STEPS: u64 = 40_000;
 /// Seeds of the tuning: none of those that are reported.
-const TUNING: [u64; 2] = [1000, 1001];
+const TUNING: Range<u64> = 1000..1002;
 const SEEDS: u64 = 20;
 
 /// The settings that each agent is tuned over, beside a batch of 32 and no warm-up for all.
@@ -111,22 +112,12 @@ struct GoalsFound {
 
 pub(crate) fn run(options: &Options) -> Done {
     let seeds = options.seeds.unwrap_or(SEEDS);
-    let (starts, fewest) = taxi_starts(WORLD)?;
-    let protocol = Protocol {
-        world: WORLD.into(),
-        layout: None,
-        steps: STEPS,
-        until_solved: false,
-        every: 25,
-        starts,
-        fewest,
-    };
+    let protocol = Protocol::taxi(STEPS)?;
     let mut agents = Vec::new();
     for (recipe, settings) in candidates() {
         let (recipe, tuned) = tune(&recipe, settings, &protocol)?;
-        let trials: std::result::Result<Vec<_>, _> =
-            over_seeds(seeds, |seed| trial(&recipe, &protocol, seed)).into_iter().collect();
-        agents.push(row(recipe, tuned, trials?));
+        let trials = trials(&recipe, &protocol, 0..seeds)?;
+        agents.push(row(recipe, tuned, trials));
     }
     let steps: Vec<Vec<f64>> = agents.iter().map(|row| row.trials.iter().map(steps).collect()).collect();
     let compare = |x: usize, y: usize| {
@@ -159,8 +150,7 @@ fn tune(
     let (mut tuned, mut best) = (Vec::new(), (f64::INFINITY, recipe.clone()));
     for set in settings {
         let candidate = recipe.with(&recipe.label, set);
-        let trials = over_seeds(TUNING.len() as u64, |i| trial(&candidate, protocol, TUNING[i as usize]));
-        let trials = trials.into_iter().collect::<std::result::Result<Vec<_>, _>>()?;
+        let trials = trials(&candidate, protocol, TUNING)?;
         let mean = trials.iter().map(steps).sum::<f64>() / trials.len() as f64;
         let solved = trials.iter().all(|trial| trial.solved().is_some());
         tuned.push((set.iter().map(|s| (*s).to_owned()).collect(), solved.then_some(mean)));

@@ -16,7 +16,7 @@ use toml::Table;
 
 use super::{
     AgentEntry, BoxedAgent, Vector,
-    parts::{Counted, NamingKind, NoveltyConfig, PlannerKind},
+    parts::{NamingKind, NoveltyConfig, NoveltyKind, PlannerKind},
     shared::{MemoryConfig, choices, named, table},
 };
 use crate::config::{ConfigError, section};
@@ -69,7 +69,11 @@ impl Default for AbstractConfig {
             explorer: ExplorerConfig { explore_for: 20, max_vertices: 40, ..ExplorerConfig::default() },
             planner: PlannerKind::Direct,
             abstract_mdp: AbstractMdpConfig::default(),
-            novelty: NoveltyConfig { counts: Counted::Features, centred: false, ..NoveltyConfig::default() },
+            novelty: NoveltyConfig {
+                counts: NoveltyKind::Features,
+                centred: false,
+                ..NoveltyConfig::default()
+            },
             frontier: TabularConfig { discount: 0.95, ..TabularConfig::default() },
             naming: NamingKind::Counterfactual,
             counterfactuals: CounterfactualConfig::default(),
@@ -95,16 +99,15 @@ impl AbstractConfig {
 fn abstract_subgoals(
     spec: &Spec,
     settings: &Table,
-    _: Backend,
-    _: Seed,
+    backend: Backend,
+    seed: Seed,
 ) -> Result<BoxedAgent<Vector, usize>, ConfigError> {
     let config: AbstractConfig = section(settings.clone(), "abstract-subgoals")?;
     let (actions, capacity) = (choices(spec), config.memory.capacity);
     let pace: Pace = config.memory.pace();
-    named("novelty", config.novelty.fits(spec))?;
     let practice = || Practice::new(Replay::new(capacity), pace);
     let curious = Curious::new(TabularQ::new(actions, &config.frontier), practice())
-        .with_novelty(config.novelty.build(), config.novelty.weight)
+        .with_novelty(config.novelty.build(spec, backend, seed)?, config.novelty.weight)
         .centred(config.novelty.centred);
     let frontier =
         Novel::new(curious, config.naming.build(&config.counterfactuals), config.novelty.threshold);

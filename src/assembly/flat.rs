@@ -1,34 +1,23 @@
-//! Flat baselines: one learner for the whole task.
+//! Flat baselines on tables: one learner for the whole task.
 
 use inroads_agents::{
-    Curious, Flat, Key, Novelty, Practice, Replay,
-    ddpg::{Ddpg, DdpgConfig},
+    Curious, Flat, Practice, Replay,
     nets::Backend,
-    novelty::Counts,
     tabular::{TabularConfig, TabularQ},
 };
 use inroads_envs::{Seed, Spec};
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use serde::{Deserialize, Serialize};
 use toml::Table;
 
 use super::{
-    AgentEntry, BoxedAgent, Vector,
-    parts::{Counted, NoveltyConfig},
-    shared::{MemoryConfig, choices, named, scaled, table, tuned_ddpg},
+    AgentEntry, BoxedAgent,
+    kinds::Observed,
+    parts::NoveltyConfig,
+    shared::{MemoryConfig, choices, named, table},
 };
 use crate::config::{ConfigError, section};
 
 pub(super) const ENTRIES: &[AgentEntry] = &[
-    AgentEntry {
-        name: "ddpg",
-        about: "the flat baseline: one DDPG policy for the whole task",
-        defaults: || table(&FlatDdpgConfig::default()),
-        check: |t| section::<FlatDdpgConfig>(t.clone(), "ddpg")?.check(),
-        continuous: Some(ddpg),
-        discrete: None,
-        annotated: None,
-        pictured: None,
-    },
     AgentEntry {
         name: "q-learning",
         about: "the flat tabular baseline",
@@ -45,33 +34,11 @@ pub(super) const ENTRIES: &[AgentEntry] = &[
         defaults: || table(&CountsConfig::default()),
         check: |t| section::<CountsConfig>(t.clone(), "counts-q")?.check(),
         continuous: None,
-        discrete: Some(|spec, settings, _, _| {
-            let config: CountsConfig = section(settings.clone(), "counts-q")?;
-            named("novelty", config.novelty.fits(spec))?;
-            Ok(counts_q(spec, &config, config.novelty.build()))
-        }),
+        discrete: Some(counts_q),
         annotated: None,
-        pictured: Some(|spec, settings, _, _| {
-            let config: CountsConfig = section(settings.clone(), "counts-q")?;
-            named("novelty", config.whole())?;
-            Ok(counts_q(spec, &config, Box::new(Counts::default())))
-        }),
+        pictured: Some(counts_q),
     },
 ];
-
-/// Settings of `ddpg`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct FlatDdpgConfig {
-    memory: MemoryConfig,
-    policy: DdpgConfig,
-}
-
-impl Default for FlatDdpgConfig {
-    fn default() -> Self {
-        Self { memory: MemoryConfig::default(), policy: tuned_ddpg() }
-    }
-}
 
 /// Settings of `q-learning`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -118,32 +85,6 @@ impl CountsConfig {
     }
 }
 
-impl CountsConfig {
-    /// Whether whole states are counted, which is all that can be of pictures.
-    fn whole(&self) -> Result<(), String> {
-        match self.novelty.counts {
-            Counted::States => Ok(()),
-            Counted::Features => {
-                Err("pictures have no features to be counted; set novelty.counts = \"states\", or see \
-                                      the world as symbols: --see symbols"
-                    .into())
-            }
-        }
-    }
-}
-
-/// What tables are kept of and experience is saved of: vectors, pictures.
-trait Remembered: Key + Clone + Serialize + DeserializeOwned + 'static {}
-
-impl<O: Key + Clone + Serialize + DeserializeOwned + 'static> Remembered for O {}
-
-impl FlatDdpgConfig {
-    fn check(&self) -> Result<(), ConfigError> {
-        named("memory", self.memory.check())?;
-        named("policy", self.policy.check())
-    }
-}
-
 impl FlatTabularConfig {
     fn check(&self) -> Result<(), ConfigError> {
         named("memory", self.memory.check())?;
@@ -151,21 +92,8 @@ impl FlatTabularConfig {
     }
 }
 
-fn ddpg(
-    spec: &Spec,
-    settings: &Table,
-    backend: Backend,
-    seed: Seed,
-) -> Result<BoxedAgent<Vector, Vector>, ConfigError> {
-    let config: FlatDdpgConfig = section(settings.clone(), "ddpg")?;
-    let mut rng = seed.stream("initialise", 0);
-    let learner = Ddpg::new(scaled(spec), spec.action.len(), &config.policy, backend, &mut rng);
-    let capacity = config.memory.capacity;
-    Ok(Box::new(Flat::new(Curious::new(learner, config.memory.practice()), capacity)))
-}
-
 /// An agent for whatever has keys.
-fn q_learning<O: Remembered>(
+fn q_learning<O: Observed>(
     spec: &Spec,
     settings: &Table,
     _: Backend,
@@ -178,11 +106,14 @@ fn q_learning<O: Remembered>(
 }
 
 /// The same with a bonus for what is novel.
-fn counts_q<O: Remembered>(
+fn counts_q<O: Observed>(
     spec: &Spec,
-    config: &CountsConfig,
-    novelty: Box<dyn Novelty<O>>,
-) -> BoxedAgent<O, usize> {
+    settings: &Table,
+    backend: Backend,
+    seed: Seed,
+) -> Result<BoxedAgent<O, usize>, ConfigError> {
+    let config: CountsConfig = section(settings.clone(), "counts-q")?;
+    let novelty = config.novelty.build(spec, backend, seed)?;
     let learner = TabularQ::new(choices(spec), &config.policy);
     let capacity = config.memory.capacity;
     let replay = Replay::new(capacity).spanning(config.returns);
@@ -190,5 +121,5 @@ fn counts_q<O: Remembered>(
         .sober(learner)
         .with_novelty(novelty, config.novelty.weight)
         .centred(config.novelty.centred);
-    Box::new(Flat::new(curious, capacity))
+    Ok(Box::new(Flat::new(curious, capacity)))
 }

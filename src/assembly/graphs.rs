@@ -29,10 +29,9 @@ pub(super) const ENTRIES: &[AgentEntry] = &[AgentEntry {
     defaults: || table(&ImDsgConfig::default()),
     check: |t| section::<ImDsgConfig>(t.clone(), "im-dsg")?.check(),
     continuous: None,
-    discrete: Some(|spec, settings, _: Backend, _: Seed| {
+    discrete: Some(|spec, settings, backend, seed| {
         let config: ImDsgConfig = section(settings.clone(), "im-dsg")?;
-        named("novelty", config.novelty.fits(spec))?;
-        let agent: BoxedAgent<Vector, usize> = Box::new(im_dsg(spec, &config));
+        let agent: BoxedAgent<Vector, usize> = Box::new(im_dsg(spec, &config, backend, seed)?);
         Ok(agent)
     }),
     annotated: None,
@@ -147,8 +146,12 @@ impl ImDsgConfig {
     }
 }
 
-/// Builds IM-DSG for a domain whose symbols tell states apart.
-pub fn im_dsg(spec: &Spec, config: &ImDsgConfig) -> ImDsg {
+/// Builds IM-DSG for a domain whose symbols tell states apart. Backend and seed are those of networks that say what is
+/// new, where the settings have such.
+///
+/// # Errors
+/// [`ConfigError`] when what is to be counted cannot be in this domain.
+pub fn im_dsg(spec: &Spec, config: &ImDsgConfig, backend: Backend, seed: Seed) -> Result<ImDsg, ConfigError> {
     let ImDsgConfig { skills, frontier, novelty, .. } = config;
     let table = |learner: &LearnerConfig| TabularQ::new(choices(spec), &learner.table);
     let replay = Replay::new(skills.replay).paying(Pay::ATTAINMENT).spanning(skills.returns);
@@ -156,11 +159,11 @@ pub fn im_dsg(spec: &Spec, config: &ImDsgConfig) -> ImDsg {
     let practice = Practice::new(Replay::new(frontier.replay).spanning(frontier.returns), frontier.pace());
     let curious = Curious::new(table(frontier), practice)
         .sober(table(frontier))
-        .with_novelty(novelty.build(), novelty.weight)
+        .with_novelty(novelty.build(spec, backend, seed)?, novelty.weight)
         .centred(novelty.centred);
     let frontier = Novel::new(curious, config.naming.build(&config.counterfactuals), novelty.threshold);
     let planner = |optimistic| config.planner.build(&config.abstract_mdp, optimistic);
     let explorer =
         GraphExplorer::new(&config.explorer, planner(true), policy, frontier).sober(planner(false));
-    Hierarchy::new(explorer, config.capacity)
+    Ok(Hierarchy::new(explorer, config.capacity))
 }

@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
-use inroads_agents::classify::{Nearest, Odds, OddsConfig, Svm, SvmConfig, TwoClassRule};
-use inroads_agents::encode::Scaled;
-use inroads_agents::evaluate::{OneHot, Sigmoid, SigmoidConfig, Table, TableConfig};
+use inroads_agents::classify::{
+    Nearest, Neural, NeuralConfig, Odds, OddsConfig, Svm, SvmConfig, TwoClassRule,
+};
+use inroads_agents::encode::{Choices, Scaled};
+use inroads_agents::evaluate::{Sigmoid, SigmoidConfig, Table, TableConfig};
 use inroads_agents::{Encoder, Evaluator, nets::Backend};
 use inroads_discovery::initiation::{IvfConfig, WeightedConfig};
 use inroads_discovery::{Binary, Dual, Initiation, Ivf, Weighted};
@@ -49,6 +51,8 @@ pub(super) enum ClassifierKind {
     Svm,
     /// Distance to the nearest examples: exact on grids.
     Nearest,
+    /// A network that reads all that is seen; for `weighted` sets too (thesis 5.1.2).
+    Neural,
 }
 
 /// What says how probable success is (chapter 5).
@@ -67,7 +71,7 @@ pub(super) enum EvaluatorKind {
 pub(super) struct InitiationConfig {
     /// The family: `binary` (3.1.3), `dual` (4.1.1), `ivf` (5.1.1) or `weighted` (5.1.2).
     pub(super) sets: String,
-    /// The classifier of the first two.
+    /// The classifier of the first two; `neural` is one of `binary` and `weighted`.
     pub(super) classifier: ClassifierKind,
     /// Examples of either class that a skill remembers.
     pub(super) examples: usize,
@@ -89,8 +93,10 @@ pub(super) struct InitiationConfig {
     pub(super) network: SigmoidConfig,
     /// What an example counts.
     pub(super) weighted: WeightedConfig,
-    /// The weighted classifier.
+    /// The weighted classifier, where it is no network.
     pub(super) odds: OddsConfig,
+    /// The classifier, where it is a network.
+    pub(super) neural: NeuralConfig,
 }
 
 impl Default for InitiationConfig {
@@ -109,6 +115,7 @@ impl Default for InitiationConfig {
             network: SigmoidConfig::default(),
             weighted: WeightedConfig::default(),
             odds: OddsConfig::default(),
+            neural: NeuralConfig::default(),
         }
     }
 }
@@ -129,6 +136,12 @@ impl InitiationConfig {
         self.network.check().map_err(|e| format!("network: {e}"))?;
         self.weighted.check().map_err(|e| format!("weighted: {e}"))?;
         self.odds.check().map_err(|e| format!("odds: {e}"))?;
+        self.neural.check().map_err(|e| format!("neural: {e}"))?;
+        if self.sets == "dual" && self.classifier == ClassifierKind::Neural {
+            return Err("classifier is \"neural\" and sets is \"dual\", whose pessimistic half sees one class only; set \
+                        classifier = \"svm\" or \"nearest\""
+                .into());
+        }
         self.family().map(drop)
     }
 
@@ -162,12 +175,16 @@ fn binary<A: 'static>(plan: &Plan<'_>, config: &InitiationConfig) -> Sets<A> {
         ClassifierKind::Nearest => {
             Box::new(Binary::new(place(plan.spec), Nearest::new(config.radius), config.examples))
         }
+        ClassifierKind::Neural => {
+            Box::new(Binary::new(scaled(plan.spec), neural(plan, config), config.examples))
+        }
     }
 }
 
 fn dual<A: 'static>(plan: &Plan<'_>, config: &InitiationConfig) -> Sets<A> {
     match config.classifier {
-        ClassifierKind::Svm => {
+        // A network is refused for these (`check`).
+        ClassifierKind::Svm | ClassifierKind::Neural => {
             let (optimistic, pessimistic) = (Svm::new(config.optimistic()), Svm::new(config.svm.clone()));
             Box::new(Dual::new(place(plan.spec), optimistic, pessimistic, config.examples))
         }
@@ -201,8 +218,21 @@ fn weighted<A: 'static, E: Evaluator<Vector, A, ()> + Clone + 'static>(
     evaluator: E,
     config: &InitiationConfig,
 ) -> Sets<A> {
-    let odds = Odds::new(&config.odds);
-    Box::new(Weighted::new(&config.weighted, ivf(evaluator, config), place(plan.spec), odds))
+    let ivf = ivf(evaluator, config);
+    match config.classifier {
+        ClassifierKind::Neural => {
+            Box::new(Weighted::new(&config.weighted, ivf, scaled(plan.spec), neural(plan, config)))
+        }
+        ClassifierKind::Svm | ClassifierKind::Nearest => {
+            Box::new(Weighted::new(&config.weighted, ivf, place(plan.spec), Odds::new(&config.odds)))
+        }
+    }
+}
+
+/// A network that tells inside from outside.
+fn neural(plan: &Plan<'_>, config: &InitiationConfig) -> Neural {
+    let mut rng = plan.seed.stream("initialise", 2);
+    Neural::new(scaled(plan.spec).width(), &config.neural, plan.backend, &mut rng)
 }
 
 fn ivf_continuous(plan: &Plan<'_>, config: &InitiationConfig) -> Sets<Vector> {
@@ -217,7 +247,7 @@ fn ivf_discrete(plan: &Plan<'_>, config: &InitiationConfig) -> Sets<usize> {
     let choices = choices(plan.spec);
     match config.evaluator {
         EvaluatorKind::Table => Box::new(ivf(Table::new(choices, &config.table), config)),
-        EvaluatorKind::Network => Box::new(ivf(network(plan, Arc::new(OneHot(choices)), config), config)),
+        EvaluatorKind::Network => Box::new(ivf(network(plan, Arc::new(Choices(choices)), config), config)),
     }
 }
 
@@ -225,6 +255,6 @@ fn weighted_discrete(plan: &Plan<'_>, config: &InitiationConfig) -> Sets<usize> 
     let choices = choices(plan.spec);
     match config.evaluator {
         EvaluatorKind::Table => weighted(plan, Table::new(choices, &config.table), config),
-        EvaluatorKind::Network => weighted(plan, network(plan, Arc::new(OneHot(choices)), config), config),
+        EvaluatorKind::Network => weighted(plan, network(plan, Arc::new(Choices(choices)), config), config),
     }
 }

@@ -5,13 +5,19 @@
 //! the constructors, a file a family of agents.
 
 mod abstracting;
+mod actor_critic;
 mod chaining;
+mod curious;
 mod deep_graphs;
+mod deep_q;
 mod flat;
 pub mod graphs;
 mod initiation;
+mod kinds;
+mod model_based;
 pub mod parts;
 mod proto;
+mod recurrent;
 mod shared;
 
 use inroads_agents::nets::Backend;
@@ -62,7 +68,12 @@ pub fn agents() -> impl Iterator<Item = &'static AgentEntry> {
         graphs::ENTRIES,
         proto::ENTRIES,
         abstracting::ENTRIES,
+        actor_critic::ENTRIES,
         flat::ENTRIES,
+        curious::ENTRIES,
+        deep_q::ENTRIES,
+        recurrent::ENTRIES,
+        model_based::ENTRIES,
     ]
     .into_iter()
     .flatten()

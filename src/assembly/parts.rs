@@ -3,27 +3,37 @@
 
 use inroads_agents::{
     Novelty,
-    novelty::{Counts, FeatureCounts, FeatureCountsConfig},
+    nets::Backend,
+    novelty::{Cfn, CfnConfig, Counts, FeatureCountsConfig, Rnd, RndConfig},
 };
 use inroads_discovery::{
     Features,
     graph::{AbstractMdp, AbstractMdpConfig, Cost, Dijkstra, Direct, Planner},
     naming::{Counterfactual, CounterfactualConfig, Name, Whole},
 };
-use inroads_envs::Spec;
+use inroads_envs::{Seed, Spec};
 use serde::{Deserialize, Serialize};
 
-use super::Vector;
+use super::{
+    Vector,
+    kinds::{EncoderKind, Observed},
+    shared::named,
+};
+use crate::config::ConfigError;
 
-/// What novelty counts.
+/// What novelty counts, or what stands in for a count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Counted {
+pub enum NoveltyKind {
     /// Whole states.
     #[default]
     States,
     /// Values of features, and pairs of them: then states that were never seen are told apart too.
     Features,
+    /// A network that foretells coins: 1/√N of what looks alike.
+    Cfn,
+    /// A network that foretells random numbers; its error is no count.
+    Rnd,
 }
 
 /// What is new, and what it counts.
@@ -31,9 +41,13 @@ pub enum Counted {
 #[serde(deny_unknown_fields, default)]
 pub struct NoveltyConfig {
     /// What is counted.
-    pub counts: Counted,
+    pub counts: NoveltyKind,
     /// How features are counted, where they are.
     pub features: FeatureCountsConfig,
+    /// How coins are foretold, where they are.
+    pub cfn: CfnConfig,
+    /// How random numbers are foretold, where they are.
+    pub rnd: RndConfig,
     /// b: what a bonus, divided by its standard deviation, counts beside the task's reward (thesis: 0.01).
     pub weight: f32,
     /// k of equation 7.8: standard deviations above the mean that make a state worth a vertex (thesis: 1).
@@ -44,8 +58,15 @@ pub struct NoveltyConfig {
 
 impl Default for NoveltyConfig {
     fn default() -> Self {
-        let features = FeatureCountsConfig::default();
-        Self { counts: Counted::States, features, weight: 0.01, threshold: 1.0, centred: true }
+        Self {
+            counts: NoveltyKind::States,
+            features: FeatureCountsConfig::default(),
+            cfn: CfnConfig::default(),
+            rnd: RndConfig::default(),
+            weight: 0.01,
+            threshold: 1.0,
+            centred: true,
+        }
     }
 }
 
@@ -63,30 +84,44 @@ impl NoveltyConfig {
                 return Err(format!("{name} is {value}; it must be 0 or above"));
             }
         }
-        self.features.check().map_err(|why| format!("features: {why}"))
+        self.features.check().map_err(|why| format!("features: {why}"))?;
+        self.cfn.check().map_err(|why| format!("cfn: {why}"))?;
+        self.rnd.check().map_err(|why| format!("rnd: {why}"))
     }
 
-    /// Whether what is to be counted can be, in this domain.
+    /// Who says how novel a state is; networks read it scaled, or as patches.
     ///
     /// # Errors
-    /// A sentence that names the domains where it can.
-    pub(super) fn fits(&self, spec: &Spec) -> Result<(), String> {
-        let (name, features) = (spec.name, spec.observation.len());
-        if self.counts == Counted::Features && features > MOST_FEATURES {
-            return Err(format!(
-                "{name} shows {features} features, and pairs of more than {MOST_FEATURES} are too many to count; take a \
-                 world whose name has `-factored`, or set novelty.counts = \"states\""
-            ));
-        }
-        Ok(())
+    /// When what is to be counted cannot be, in this domain: a sentence that names those where it can.
+    pub(super) fn build<O: Observed>(
+        &self,
+        spec: &Spec,
+        backend: Backend,
+        seed: Seed,
+    ) -> Result<Box<dyn Novelty<O>>, ConfigError> {
+        let rng = &mut seed.stream("novelty", 0);
+        let reader = |torso| O::reader(spec, torso, EncoderKind::Scaled);
+        Ok(match self.counts {
+            NoveltyKind::States => Box::new(Counts::default()),
+            NoveltyKind::Features => {
+                named("novelty", self.countable(spec))?;
+                named("novelty", O::feature_counts(&self.features))?
+            }
+            NoveltyKind::Cfn => Box::new(Cfn::new(reader(&self.cfn.torso)?, &self.cfn, backend, rng)),
+            NoveltyKind::Rnd => Box::new(Rnd::new(reader(&self.rnd.torso)?, &self.rnd, backend, rng)),
+        })
     }
 
-    /// Who says how novel a state is.
-    pub(super) fn build(&self) -> Box<dyn Novelty<Vector>> {
-        match self.counts {
-            Counted::States => Box::new(Counts::default()),
-            Counted::Features => Box::new(FeatureCounts::new(&self.features)),
+    /// Whether there are few enough features to count their pairs.
+    fn countable(&self, spec: &Spec) -> Result<(), String> {
+        let (name, features) = (spec.name, spec.observation.dimensions().len());
+        if features <= MOST_FEATURES {
+            return Ok(());
         }
+        Err(format!(
+            "{name} shows {features} features, and pairs of more than {MOST_FEATURES} are too many to count; take a \
+             world whose name has `-factored`, or set novelty.counts = \"states\""
+        ))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Classifier;
+use super::{Classifier, Weighing, class_weights, fit_equal};
 use crate::svm::{Unfit, check_paired, check_rows, check_weights};
 
 /// Settings of [`Odds`].
@@ -55,26 +55,21 @@ impl Odds {
     pub fn new(config: &OddsConfig) -> Self {
         Self { config: config.clone(), examples: Vec::new() }
     }
+}
 
-    /// Replaces what was learned by a fit to rows, whether each is inside, and how much it counts.
-    ///
-    /// # Errors
-    /// [`Unfit`] names what cannot be used; what was learned before stays then.
-    pub fn fit_weighted(&mut self, rows: &[Vec<f32>], labels: &[bool], weights: &[f32]) -> Result<(), Unfit> {
+impl Weighing for Odds {
+    fn fit_weighted(&mut self, rows: &[Vec<f32>], labels: &[bool], weights: &[f32]) -> Result<(), Unfit> {
         check_rows(rows)?;
         check_paired("labels", labels.len(), rows.len())?;
         check_weights(&weights.iter().map(|w| f64::from(*w)).collect::<Vec<_>>(), rows.len())?;
-        let of = |class: bool| labels.iter().filter(|label| **label == class).count().max(1) as f32;
-        let [negative, positive] =
-            if self.config.balance { [-1.0 / of(false), 1.0 / of(true)] } else { [-1.0, 1.0] };
+        let [negative, positive] = if self.config.balance { class_weights(labels) } else { [1.0; 2] };
         let signed =
-            labels.iter().zip(weights).map(|(label, w)| w * if *label { positive } else { negative });
+            labels.iter().zip(weights).map(|(label, w)| if *label { w * positive } else { w * -negative });
         self.examples = rows.iter().cloned().zip(signed).collect();
         Ok(())
     }
 
-    /// How probable it is that the row is inside; 0 where there is no example.
-    pub fn probability(&self, row: &[f32]) -> f32 {
+    fn probability(&self, row: &[f32]) -> f32 {
         let reach = self.config.radius.powi(2);
         let (mut inside, mut all) = (0.0, 0.0);
         for (at, weight) in &self.examples {
@@ -89,12 +84,7 @@ impl Odds {
 
 impl Classifier for Odds {
     fn fit(&mut self, positives: &[Vec<f32>], negatives: &[Vec<f32>]) -> Result<(), Unfit> {
-        if positives.is_empty() {
-            return Err(Unfit::NoSamples);
-        }
-        let rows = [positives, negatives].concat();
-        let labels: Vec<_> = (0..rows.len()).map(|i| i < positives.len()).collect();
-        self.fit_weighted(&rows, &labels, &vec![1.0; rows.len()])
+        fit_equal(self, positives, negatives)
     }
 
     fn score(&self, row: &[f32]) -> f32 {

@@ -75,9 +75,9 @@ fn teach<O: Clone>(learner: &mut Dqn<O>, lessons: &[(O, [f32; 2])], updates: u64
 /// A learner whose target holds `slow` and whose online network `fast` for the choices at a state.
 fn crafted(config: &DqnConfig, slow: [f32; 2], fast: [f32; 2]) -> Dqn<Row> {
     let mut learner = learner(config);
-    teach(&mut learner, &[(vec![0.3, -0.2], slow)], 1500);
+    teach(&mut learner, &[(vec![0.3, -0.2], slow)], 600);
     learner.nets.follow(1.0);
-    teach(&mut learner, &[(vec![0.3, -0.2], fast)], 1500);
+    teach(&mut learner, &[(vec![0.3, -0.2], fast)], 600);
     learner
 }
 
@@ -201,12 +201,12 @@ fn who_does_not_explore_takes_the_best_and_who_explores_follows_the_schedule() {
 #[test]
 fn noise_explores_and_is_another_for_the_choice_than_for_its_value() {
     let state = vec![0.3, -0.2];
-    let learner = learner(&DqnConfig { noise: 4.0, ..small() });
+    let loud = learner(&DqnConfig { noise: 4.0, ..small() });
     let mut streams = ctx(0);
     let mut acts = |explore| -> Vec<usize> {
         streams.explore = explore;
         let mut act =
-            |_| Learner::<Row, usize, ()>::act(&learner, &mut Memory::new(), &state, None, &mut streams);
+            |_| Learner::<Row, usize, ()>::act(&loud, &mut Memory::new(), &state, None, &mut streams);
         (0..60).map(&mut act).collect()
     };
     let noisy = acts(true);
@@ -215,12 +215,9 @@ fn noise_explores_and_is_another_for_the_choice_than_for_its_value() {
     assert!(quiet.iter().all(|choice| *choice == quiet[0]));
     // Both networks are the same one here. Were the noise the same too, the choice would be the target's own.
     let states = [state.clone(), state.clone()];
+    let clip: Clip<_, _, ()> = Clip::new(&states, &[0], Rewards::Given(&[0.0]), None, false);
     let target = |noise, double, index| {
-        let mut learner = learner.clone();
-        learner.config.double = double;
-        learner.nets = super::tests::learner(&DqnConfig { noise, ..small() }).nets;
-        let clip: Clip<_, _, ()> = Clip::new(&states, &[0], Rewards::Given(&[0.0]), None, false);
-        learner.targets(&[clip], &mut ctx(index))[0]
+        learner(&DqnConfig { noise, double, ..small() }).targets(&[clip], &mut ctx(index))[0]
     };
     let differ = |noise| (0..30).filter(|i| target(noise, true, *i) != target(noise, false, *i)).count();
     assert!(differ(4.0) > 5 && differ(0.0) == 0);

@@ -132,6 +132,24 @@ impl Encoder<Vec<f32>> for OneHot {
     }
 }
 
+/// A choice as a row: 1 in its own place.
+#[derive(Clone, Copy, Debug)]
+pub struct Choices(
+    /// How many there are.
+    pub usize,
+);
+
+impl Encoder<usize> for Choices {
+    fn width(&self) -> usize {
+        self.0
+    }
+
+    fn write(&self, choice: &usize, out: &mut [f32]) {
+        out.fill(0.0);
+        out[*choice] = 1.0;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

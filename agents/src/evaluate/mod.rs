@@ -20,7 +20,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-pub use sigmoid::{OneHot, Sigmoid, SigmoidConfig};
+pub use sigmoid::{Sigmoid, SigmoidConfig};
 pub use table::{Table, TableConfig};
 
 use crate::{Checkpoint, Clip, Context};

@@ -51,24 +51,6 @@ impl SigmoidConfig {
     }
 }
 
-/// A choice as a row: 1 in its own place.
-#[derive(Clone, Copy, Debug)]
-pub struct OneHot(
-    /// How many choices there are.
-    pub usize,
-);
-
-impl Encoder<usize> for OneHot {
-    fn width(&self) -> usize {
-        self.0
-    }
-
-    fn write(&self, choice: &usize, out: &mut [f32]) {
-        out.fill(0.0);
-        out[*choice] = 1.0;
-    }
-}
-
 /// An encoder that many may share.
 type Shared<T> = Arc<dyn Encoder<T> + Send + Sync>;
 
@@ -158,7 +140,8 @@ impl<O, A, G: Encode> Evaluator<O, A, G> for Sigmoid<O, A> {
             *target = (cumulant + discount * *target).clamp(0.0, 1.0);
         }
         let step = Step { rate: self.config.rate, ..Step::default() };
-        let loss = self.net.learn(learned, &targets, step);
+        let weights: Vec<f32> = clips.iter().chain(clips).map(|clip| clip.weight).collect();
+        let loss = self.net.learn(learned, &targets, &weights, step);
         self.net.follow(self.config.tau);
         loss
     }

@@ -117,8 +117,9 @@ impl<O: Key, G: Key> Evaluator<O, usize, G> for Table {
         policy: &Policy<'_, O, usize>,
         ctx: &mut Context,
     ) -> f32 {
-        let (mut loss, rate) = (0.0, self.config.rate);
+        let mut loss = 0.0;
         for clip in clips {
+            let rate = self.config.rate * clip.weight;
             let (cumulant, discount) = clip.discounted(self.config.discount);
             let follows = match discount > 0.0 {
                 true => discount * self.row(clip.last(), clip.goal).actions[policy(clip.last(), ctx)],

@@ -6,7 +6,7 @@ use inroads_envs::{Dimension, End, Rng, Seed, Space};
 use rand::RngExt;
 
 use super::*;
-use crate::encode::Scaled;
+use crate::encode::{Choices, Scaled};
 use crate::experience::{Aim, Pay};
 use crate::nets::Backend;
 use crate::{Experience, Lesson, Replay, Transition};
@@ -71,7 +71,7 @@ fn network(states: f32) -> Sigmoid<State, usize> {
     let mut rng = Seed(4).stream("weights", 0);
     Sigmoid::new(
         Arc::new(Scaled::new(&space)),
-        Arc::new(OneHot(2)),
+        Arc::new(Choices(2)),
         0,
         &config,
         Backend::of_tests(),

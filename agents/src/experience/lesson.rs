@@ -77,6 +77,12 @@ pub enum Rewards<'a> {
     Subgoal(Pay, bool),
 }
 
+/// Σ γᵗ r over some steps, and γ to their number: the two coefficients of an n-step return, and of equation 3.3, whose
+/// exponent counts the steps taken (`decisions.md`).
+pub fn discounted(rewards: impl Iterator<Item = f32>, gamma: f32) -> (f32, f32) {
+    rewards.fold((0.0, 1.0), |(sum, discount), r| (sum + discount * r, discount * gamma))
+}
+
 /// A step (or a few, or a sequence) to learn from, borrowed from the experience.
 #[derive(Clone, Copy, Debug)]
 pub struct Clip<'a, O, A, G> {
@@ -137,11 +143,7 @@ impl<'a, O, A, G> Clip<'a, O, A, G> {
 
     /// Σ γᵗ r over the clip, and the discount of the value of its last observation: 0 when it is terminal.
     pub fn discounted(&self, gamma: f32) -> (f32, f32) {
-        let (mut sum, mut discount) = (0.0, 1.0);
-        for i in 0..self.len() {
-            sum += discount * self.reward(i);
-            discount *= gamma;
-        }
+        let (sum, discount) = discounted((0..self.len()).map(|i| self.reward(i)), gamma);
         (sum, if self.terminal { 0.0 } else { discount })
     }
 
@@ -156,5 +158,21 @@ impl<'a, O, A, G> Clip<'a, O, A, G> {
     /// When the clip is empty, which none from a replay is.
     pub fn last(&self) -> &'a O {
         self.observations.last().expect("a clip has an observation more than actions")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn returns_discount_by_the_steps_taken() {
+        let of = |rewards: &[f32], gamma| discounted(rewards.iter().copied(), gamma);
+        // Equation 3.3, and a return of three steps (algorithms.md 14, SMDP 1 and DQN 3).
+        let (reward, discount) = of(&[-1.0, -1.0, -1.0], 0.9);
+        assert!((reward + discount * -5.0 - -6.355).abs() < 1e-6);
+        let (reward, discount) = of(&[0.0, 0.0, 1.0], 0.9);
+        assert!((reward + discount * 2.0 - 2.268).abs() < 1e-6);
+        assert_eq!(of(&[], 0.9), (0.0, 1.0));
     }
 }

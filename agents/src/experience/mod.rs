@@ -12,7 +12,7 @@ use std::ops::Range;
 use inroads_envs::End;
 use serde::{Deserialize, Serialize};
 
-pub use lesson::{Aim, Clip, Lesson, Pay, Rewards};
+pub use lesson::{Aim, Clip, Lesson, Pay, Rewards, discounted};
 
 use crate::Transition;
 

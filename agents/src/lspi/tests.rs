@@ -87,6 +87,14 @@ fn a_second_solve_carries_values_one_state_further() {
     near(right, [0.0, 0.0, 0.9, 1.0]);
     // Who avoids the goal has nothing better than to stay with left, where nothing happens.
     assert_eq!(worse, left);
+    // So the whole policy takes as many solves as there are states.
+    let mut policy = left.to_vec();
+    let values = [[0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.9, 1.0], [0.0, 0.81, 0.9, 1.0], [0.729, 0.81, 0.9, 1.0]];
+    for expected in values {
+        let (white, [_, right]) = evaluate(&lspi, &batch, &task, &policy);
+        near(right, expected);
+        [policy, _] = greedy(&batch, &bellman::plain(&batch, &white), &policy);
+    }
 }
 
 #[test]

@@ -44,9 +44,10 @@ impl Mlp {
     }
 }
 
-/// The value of an action at a state. The action enters at the second layer (DDPG, Lillicrap 2015, section 7).
+/// The value of an action at a state. The action enters at the second layer (DDPG, Lillicrap 2015, section 7) or at the
+/// first (TD3, Fujimoto 2018).
 ///
-/// That layer has one matrix for the first layer's features and another for the action: nothing is copied
+/// That layer has one matrix for the features before it and another for the action: nothing is copied
 /// together, and the actor's update, which needs the derivative by the action alone, computes no other.
 #[derive(Module, Debug, Default)]
 pub(crate) struct Critic {
@@ -56,17 +57,18 @@ pub(crate) struct Critic {
 }
 
 impl Critic {
-    /// A critic with these hidden layers, of which the first sees the state only.
+    /// A critic with these hidden layers, of which the first `alone` see the state only.
     pub(crate) fn new(
         inputs: usize,
         actions: usize,
         hidden: &[usize],
+        alone: usize,
         device: &Device,
         rng: &mut Rng,
     ) -> Self {
-        let (first, rest) = hidden.split_at(1);
+        let (alone, rest) = hidden.split_at(alone);
         let mut width = inputs;
-        let state = init::hidden(&mut width, first, device, rng);
+        let state = init::hidden(&mut width, alone, device, rng);
         let features = Mlp::new(width, rest, 1, init::LAST, device, rng);
         // The action's weights begin within the same bounds as the features'.
         let (outputs, bound) = rest.first().map_or((1, init::LAST), |&next| (next, init::bound(width)));

@@ -1,7 +1,8 @@
 //! Networks on Burn: rows of numbers in, rows of numbers out.
 //!
 //! Burn is named in this folder only. Learners see [`Backend`] and one struct of networks each, `ActorCritic`,
-//! `DeepQ`, `QNetwork` and `ProbabilityNet`, which know how to act and how to make one step, but not towards what.
+//! `DeepQ`, `QNetwork`, `RecurrentNet` and `ProbabilityNet`, which know how to act and how to make one step, but not towards
+//! what.
 //!
 //! Modules live on a plain device, so that acting records no graph; learning makes a tracked clone of them,
 //! drops it after the backward pass, and then nothing else holds the numbers and they change in place.
@@ -13,21 +14,30 @@ mod deep_q;
 mod device;
 mod dueling;
 mod init;
+mod lstm;
 mod mlp;
 mod noisy;
 mod probability;
 mod q_network;
+mod recurrent;
+mod regression;
+mod regressor;
+mod squash;
 mod target;
 mod torso;
 
-pub(crate) use actor_critic::{ActorCritic, Shape};
+pub(crate) use actor_critic::{ActorCritic, Batch, Shape};
 pub(crate) use adam::Step;
 pub(crate) use deep_q::{Asked, DeepQ};
 pub use device::{Backend, NoBackend};
 pub(crate) use dueling::{HeadParts, HeadShape};
+pub(crate) use lstm::State;
 pub(crate) use noisy::head_noise;
 pub(crate) use probability::ProbabilityNet;
 pub(crate) use q_network::QNetwork;
+pub(crate) use recurrent::{RecurrentNet, RecurrentShape, Steps};
+pub(crate) use regression::Regression;
+pub(crate) use regressor::{Layers, Regressor};
 pub use torso::{TorsoConfig, Vision};
 
 use std::mem::take;

@@ -39,21 +39,22 @@ impl ProbabilityNet {
         floats(sigmoid(self.target.forward(rows(states, self.inputs, &self.device))))
     }
 
-    /// One step towards these targets in [0, 1] down the cross-entropy; its mean before the step.
+    /// One step towards these targets in [0, 1] down the cross-entropy, in which each row counts what it weighs; its mean
+    /// before the step.
     ///
     /// The derivative of the cross-entropy by a logit is p − y: none vanishes while the network is wrong, as those of
     /// the squared error do.
-    pub(crate) fn learn(&mut self, states: Vec<f32>, targets: &[f32], step: Step) -> f32 {
+    pub(crate) fn learn(&mut self, states: Vec<f32>, targets: &[f32], weights: &[f32], step: Step) -> f32 {
         let online = self.online.clone().train();
         let logits = online.forward(rows(states, self.inputs, &self.device).autodiff());
         let now = floats(logits.clone().inner());
         let n = targets.len() as f32;
         let (mut slopes, mut loss) = (Vec::with_capacity(targets.len()), 0.0);
-        for (logit, target) in now.iter().zip(targets) {
+        for ((logit, target), weight) in now.iter().zip(targets).zip(weights) {
             let p = (1.0 + (-logit).exp()).recip();
-            slopes.push((p - target) / n);
+            slopes.push(weight * (p - target) / n);
             // ln(1 + eˣ) − yx, in the form that does not overflow.
-            loss += logit.max(0.0) - target * logit + (-logit.abs()).exp().ln_1p();
+            loss += weight * (logit.max(0.0) - target * logit + (-logit.abs()).exp().ln_1p());
         }
         let pull = (logits * rows(slopes, 1, &self.device).autodiff()).sum();
         let grads = GradientsParams::from_grads(pull.backward(), &online);
@@ -99,9 +100,9 @@ mod tests {
         let before = net.values(rows.clone());
         assert!(before.iter().all(|p| (p - 0.5).abs() < 0.02), "{before:?}");
         let step = Step { rate: 0.01, ..Step::default() };
-        let first = net.learn(rows.clone(), &[0.9, 0.2], step);
+        let first = net.learn(rows.clone(), &[0.9, 0.2], &[1.0; 2], step);
         assert!((first - 2_f32.ln()).abs() < 0.02, "half a bit of each is {first}");
-        (0..600).for_each(|_| _ = net.learn(rows.clone(), &[0.9, 0.2], step));
+        (0..600).for_each(|_| _ = net.learn(rows.clone(), &[0.9, 0.2], &[1.0; 2], step));
         let after = net.values(rows.clone());
         assert!((after[0] - 0.9).abs() < 0.01 && (after[1] - 0.2).abs() < 0.01, "{after:?}");
         assert_eq!(net.target_values(rows.clone()), before);
@@ -113,14 +114,14 @@ mod tests {
     fn equal_seeds_learn_to_the_same_bits_and_checkpoints_go_on_alike() {
         let (mut one, mut two) = (net(2), net(2));
         let step = Step { rate: 0.01, ..Step::default() };
-        (0..20).for_each(|_| _ = one.learn(vec![0.3, 0.4], &[1.0], step));
+        (0..20).for_each(|_| _ = one.learn(vec![0.3, 0.4], &[1.0], &[1.0], step));
         let mut bag = Bag::default();
         one.save(&mut bag);
         let mut restored = net(3);
         restored.load(&bag).unwrap();
-        (0..20).for_each(|_| _ = two.learn(vec![0.3, 0.4], &[1.0], step));
+        (0..20).for_each(|_| _ = two.learn(vec![0.3, 0.4], &[1.0], &[1.0], step));
         for net in [&mut one, &mut two, &mut restored] {
-            net.learn(vec![0.1, 0.9], &[0.0], step);
+            net.learn(vec![0.1, 0.9], &[0.0], &[1.0], step);
         }
         let bits = |net: &ProbabilityNet| net.values(vec![0.5, 0.5])[0].to_bits();
         assert_eq!(bits(&one), bits(&two));

@@ -6,6 +6,8 @@ use burn::module::{Module, ModuleMapper, ModuleVisitor, Param};
 use burn::optim::GradientsParams;
 use burn::tensor::Tensor;
 
+use super::edit;
+
 /// One step of size `tau` of the target towards the online network, of which it once was a clone.
 pub(crate) fn follow<M: Module + Default>(target: &mut M, online: &M, tau: f32) {
     let mut values = Collect(GradientsParams::new());
@@ -30,8 +32,10 @@ struct Towards {
 
 impl ModuleMapper for Towards {
     fn map_float<const D: usize>(&mut self, param: Param<Tensor<D>>) -> Param<Tensor<D>> {
-        let online = self.online.remove::<D>(param.id).expect("the target is a clone");
-        param.map(|target| target * (1.0 - self.tau) + online * self.tau)
+        let online = self.online.remove::<D>(param.id).expect("the target is a clone").into_data();
+        let online: &[f32] = online.as_slice().expect("our tensors are f32");
+        let (tau, rest) = (self.tau, 1.0 - self.tau);
+        edit(param, |target| target.iter_mut().zip(online).for_each(|(t, o)| *t = *t * rest + o * tau))
     }
 }
 
@@ -39,7 +43,7 @@ impl ModuleMapper for Towards {
 mod tests {
     use super::*;
     use crate::nets::mlp::Mlp;
-    use crate::nets::{Backend, edit, values};
+    use crate::nets::{Backend, values};
     use inroads_envs::Seed;
 
     struct Add(f32);

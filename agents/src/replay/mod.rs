@@ -89,6 +89,11 @@ impl<G> Replay<G> {
         Self { pay, ..self }
     }
 
+    /// What subgoals pay.
+    pub fn pay(&self) -> Pay {
+        self.pay
+    }
+
     /// The same with clips of up to `steps` steps, for n-step returns; at least 1.
     pub fn spanning(self, steps: u32) -> Self {
         Self { cut: Cut { span: steps.max(1), ..self.cut }, ..self }

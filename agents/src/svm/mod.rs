@@ -72,13 +72,13 @@ pub enum Unfit {
     #[error("the samples have no columns: give every row at least one feature")]
     NoFeatures,
     /// Rows of different widths.
-    #[error("row {row} has {width} columns but the first has {expected}: give all rows the same features")]
+    #[error("row {row} has {width} columns instead of {expected}: give all rows the same features")]
     Ragged {
         /// The first row that differs.
         row: usize,
         /// Its width.
         width: usize,
-        /// The first row's width.
+        /// The first row's width, or that of the rows a network reads.
         expected: usize,
     },
     /// Not a number, or infinite.

@@ -26,13 +26,15 @@ pub use config::{ChainAt, ChainConfig, Lessons, OptionReward, Subgoals};
 pub(crate) use skill::observation;
 pub use skill::{Moment, Phase, Skill};
 
-use inroads_agents::{Checkpoint, Context, Experience, Lesson, Memory, Transition, checkpoint};
+use inroads_agents::{
+    Checkpoint, Context, Experience, Lesson, Memory, Transition, checkpoint, experience::discounted,
+};
 use inroads_envs::{End, Spec};
 use rand::RngExt;
 
 use crate::{
     Call, Choice, Discovery, Goal, Initiation, Outcome, PolicyOverSkills, SkillId, SkillPolicy, Stop,
-    execution::discounted,
+    execution::Driver,
 };
 pub(crate) use gestation::Gestation;
 pub(crate) use growth::SHORTEST;
@@ -60,9 +62,8 @@ checkpoint!(
 /// What a chain keeps for one episode of one actor.
 #[derive(Clone, Debug)]
 pub struct Lane<G> {
-    /// The acting policy's memory, and whose it is.
-    memory: Memory,
-    owner: Option<SkillId>,
+    /// Who acts.
+    driver: Driver,
     /// Whether the global option is forbidden wherever a learned skill may start.
     chain_alone: bool,
     /// What subgoal states are worth, as it was when first asked for in this episode.
@@ -73,7 +74,7 @@ pub struct Lane<G> {
 
 impl<G> Default for Lane<G> {
     fn default() -> Self {
-        Self { memory: Memory::new(), owner: None, chain_alone: false, values: None, pursued: Vec::new() }
+        Self { driver: Driver::default(), chain_alone: false, values: None, pursued: Vec::new() }
     }
 }
 
@@ -120,10 +121,7 @@ where
         all: &Experience<O, A>,
         ctx: &mut Context,
     ) -> Call<S::Goal> {
-        if lane.owner != Some(k) {
-            lane.memory.clear();
-            lane.owner = Some(k);
-        }
+        lane.driver.hand_to(k);
         let goal = self.pursue(k, s, &mut lane.values, all, ctx);
         Call { skill: k, goal, budget: if k == SkillId::GLOBAL { 1 } else { self.config.timeout } }
     }
@@ -142,7 +140,7 @@ where
         let last = if self.config.intra_option { out.steps.end } else { out.steps.start + 1 };
         for step in out.steps.start..last {
             let rewards = &episode.rewards[step as usize..out.steps.end as usize];
-            let (reward, discount) = discounted(rewards, self.config.discount);
+            let (reward, discount) = discounted(rewards.iter().copied(), self.config.discount);
             let choice = Choice {
                 episode: out.episode,
                 steps: step..out.steps.end,
@@ -240,7 +238,7 @@ where
     }
 
     fn act(&self, lane: &mut Self::Lane, call: &Call<S::Goal>, s: &O, ctx: &mut Context) -> A {
-        self.policy.act(&mut lane.memory, call, s, ctx)
+        self.policy.act(lane.driver.memory(), call, s, ctx)
     }
 
     fn reached(&self, call: &Call<S::Goal>, t: &Transition<O, A>) -> bool {

@@ -9,7 +9,7 @@
 
 use std::collections::VecDeque;
 
-use inroads_agents::classify::Odds;
+use inroads_agents::classify::{Odds, Weighing};
 use inroads_agents::{Bag, Checkpoint, Context, Corrupt, Evaluator, Experience, Key, Lesson, checkpoint};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
@@ -72,42 +72,42 @@ impl WeightedConfig {
 }
 
 /// Sets that a weighted classifier draws. Thresholds, gestation and optimism are those of the value function that weighs.
-pub struct Weighted<O, A, E, G = ()> {
+pub struct Weighted<O, A, E, G = (), C = Odds> {
     config: WeightedConfig,
     ivf: Ivf<O, A, E, G>,
     places: Places<O>,
-    blank: Odds,
-    sets: Vec<Set<O>>,
+    blank: C,
+    sets: Vec<Set<O, C>>,
 }
 
-struct Set<O> {
-    odds: Odds,
+struct Set<O, C> {
+    classifier: C,
     positives: VecDeque<O>,
     negatives: VecDeque<O>,
 }
 
 checkpoint!(
-    [O] Set<O>; plain: positives, negatives; parts: odds;
-    where O: Serialize + DeserializeOwned
+    [O, C] Set<O, C>; plain: positives, negatives; parts: classifier;
+    where O: Serialize + DeserializeOwned, C: Checkpoint
 );
 
-impl<O, A, E, G> Weighted<O, A, E, G> {
+impl<O, A, E, G, C: Weighing + Clone> Weighted<O, A, E, G, C> {
     /// A family that classifies the rows of `places` with copies of `blank`, weighted by the values of `ivf`.
-    pub fn new(config: &WeightedConfig, ivf: Ivf<O, A, E, G>, places: Places<O>, blank: Odds) -> Self {
+    pub fn new(config: &WeightedConfig, ivf: Ivf<O, A, E, G>, places: Places<O>, blank: C) -> Self {
         Self { config: config.clone(), ivf, places, blank, sets: Vec::new() }
     }
 
-    fn set(&self, k: SkillId) -> Option<&Set<O>> {
+    fn set(&self, k: SkillId) -> Option<&Set<O, C>> {
         self.sets.get(k.index().checked_sub(1)?)
     }
 
     /// How probable it is that skill `k` succeeds from `s`, as the classifier says.
     pub fn probability(&self, k: SkillId, s: &O) -> f32 {
-        self.set(k).map_or(1.0, |set| set.odds.probability(&row(&self.places, s)))
+        self.set(k).map_or(1.0, |set| set.classifier.probability(&row(&self.places, s)))
     }
 }
 
-impl<O: Key, A, E: Evaluator<O, A, G> + Clone, G> Weighted<O, A, E, G> {
+impl<O: Key, A, E: Evaluator<O, A, G> + Clone, G, C: Weighing + Clone> Weighted<O, A, E, G, C> {
     /// Weighs all examples of skill `k` by what its value function says now, and fits its classifier again.
     fn refit(&mut self, k: SkillId) {
         let Some(set) = self.set(k) else { return };
@@ -119,11 +119,15 @@ impl<O: Key, A, E: Evaluator<O, A, G> + Clone, G> Weighted<O, A, E, G> {
         let rows: Vec<_> = states.into_iter().map(|s| row(&self.places, s)).collect();
         let set = &mut self.sets[k.index() - 1];
         // Without any example there is nothing to fit, and the set keeps what it has.
-        let _unfit = set.odds.fit_weighted(&rows, &labels, &weights);
+        let _unfit = set.classifier.fit_weighted(&rows, &labels, &weights);
     }
 }
 
-impl<O> Set<O> {
+impl<O, C> Set<O, C> {
+    fn new(classifier: C) -> Self {
+        Self { classifier, positives: VecDeque::new(), negatives: VecDeque::new() }
+    }
+
     fn remember(&mut self, states: impl IntoIterator<Item = O>, success: bool, capacity: usize) {
         let examples = if success { &mut self.positives } else { &mut self.negatives };
         examples.extend(states);
@@ -132,16 +136,16 @@ impl<O> Set<O> {
     }
 }
 
-impl<O, A, E, G> Initiation<O, A> for Weighted<O, A, E, G>
+impl<O, A, E, G, C> Initiation<O, A> for Weighted<O, A, E, G, C>
 where
     O: Key + Clone + Serialize + DeserializeOwned,
     E: Evaluator<O, A, G> + Clone,
     G: Key + Clone + Serialize + DeserializeOwned,
+    C: Weighing + Clone,
 {
     fn born(&mut self, k: SkillId, positives: &[O]) {
         self.ivf.born(k, positives);
-        let mut set =
-            Set { odds: self.blank.clone(), positives: VecDeque::new(), negatives: VecDeque::new() };
+        let mut set = Set::new(self.blank.clone());
         set.remember(positives.iter().cloned(), true, self.config.examples);
         self.sets.push(set);
         self.refit(k);
@@ -191,11 +195,12 @@ where
     }
 }
 
-impl<O, A, E, G> Checkpoint for Weighted<O, A, E, G>
+impl<O, A, E, G, C> Checkpoint for Weighted<O, A, E, G, C>
 where
     O: Serialize + DeserializeOwned,
     E: Checkpoint + Clone,
     G: Serialize + DeserializeOwned,
+    C: Checkpoint + Clone,
 {
     fn save(&self, bag: &mut Bag) {
         bag.put_part("ivf", &self.ivf);
@@ -207,8 +212,7 @@ where
         bag.get_part("ivf", &mut self.ivf)?;
         self.sets.clear();
         for i in 0..bag.get::<usize>("sets")? {
-            let mut set =
-                Set { odds: self.blank.clone(), positives: VecDeque::new(), negatives: VecDeque::new() };
+            let mut set = Set::new(self.blank.clone());
             bag.get_part(&format!("{i}"), &mut set)?;
             self.sets.push(set);
         }

@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     Call, Discovery, Goal, Hierarchy, Outcome, SkillId, SkillPolicy, Skilled, Stop, Wanted,
-    record::GoalRecord,
+    execution::Driver, hindsight::lessons, record::GoalRecord,
 };
 
 /// Pursues goals out of a space that it prunes and extends, with the policies of `P` and the judgement of `E`.
@@ -29,13 +29,6 @@ pub struct ProtoGoalAgent<P, E> {
     judge: E,
     /// Steps of the environment so far.
     steps: u64,
-}
-
-/// What an actor keeps for one episode: the acting policy's memory, and for what it acted.
-#[derive(Clone, Debug, Default)]
-pub struct Lane {
-    memory: Memory,
-    owner: Option<SkillId>,
 }
 
 impl<P, E> ProtoGoalAgent<P, E> {
@@ -78,7 +71,7 @@ impl<P, E> ProtoGoalAgent<P, E> {
             if Self::skill(id) == out.call.skill {
                 continue;
             }
-            for lesson in hindsight::lessons(out, &bits, &self.space.goal(id).wanted) {
+            for lesson in lessons(&self.space.goal(id).wanted, out.episode, episode, out.steps.clone()) {
                 self.policy.lesson(Self::skill(id), lesson);
             }
         }
@@ -91,11 +84,11 @@ where
     E: SeekAvoid<O, A>,
 {
     type Goal = Wanted;
-    type Lane = Lane;
+    type Lane = Driver;
 
     fn decide(
         &self,
-        lane: &mut Lane,
+        lane: &mut Driver,
         s: &Annotated<O>,
         _: &Experience<Annotated<O>, A>,
         ctx: &mut Context,
@@ -111,16 +104,13 @@ where
             None
         };
         let skill = chosen.map_or(SkillId::GLOBAL, Self::skill);
-        if lane.owner != Some(skill) {
-            lane.memory.clear();
-            lane.owner = Some(skill);
-        }
+        lane.hand_to(skill);
         let goal = chosen.map(|id| self.space.goal(id).wanted.clone());
         Call { skill, goal, budget: self.config.horizon }
     }
 
-    fn act(&self, lane: &mut Lane, call: &Call<Wanted>, s: &Annotated<O>, ctx: &mut Context) -> A {
-        self.policy.act(&mut lane.memory, call, s, ctx)
+    fn act(&self, lane: &mut Driver, call: &Call<Wanted>, s: &Annotated<O>, ctx: &mut Context) -> A {
+        self.policy.act(lane.memory(), call, s, ctx)
     }
 
     fn reached(&self, call: &Call<Wanted>, t: &Transition<Annotated<O>, A>) -> bool {
@@ -129,7 +119,7 @@ where
 
     fn finished(
         &mut self,
-        _: &mut Lane,
+        _: &mut Driver,
         out: &Outcome<Wanted>,
         all: &Experience<Annotated<O>, A>,
         ctx: &mut Context,

@@ -1,14 +1,10 @@
 //! Which attained goals to learn about in hindsight (thesis 8.4.2).
 
-use inroads_agents::{Lesson, experience::Aim};
+use inroads_agents::draw;
 use inroads_envs::{Bits, Rng};
 use serde::{Deserialize, Serialize};
 
-use super::{
-    GoalId, GoalSpace, ProtoConfig,
-    desirable::{draw_different, novelty},
-};
-use crate::{Outcome, Wanted, hindsight::stretches};
+use super::{GoalId, GoalSpace, ProtoConfig, desirable::novelty};
 
 /// How goals are picked among those that a call attained.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -34,31 +30,12 @@ pub fn goals(space: &GoalSpace, bits: &[&Bits], config: &ProtoConfig, rng: &mut 
         Relabel::Novel => attained.iter().map(|id| novelty(space.goal(*id))).collect(),
         Relabel::Uniform => vec![1.0; attained.len()],
     };
-    draw_different(&weights, config.hindsight, rng).into_iter().map(|i| attained[i]).collect()
-}
-
-/// What the steps of a call have to teach about a goal: the way to each time it was attained, and what came after the last.
-pub fn lessons<'a>(
-    out: &'a Outcome<Wanted>,
-    bits: &[&Bits],
-    wanted: &'a Wanted,
-) -> impl Iterator<Item = Lesson<Wanted>> + 'a {
-    let inside: Vec<_> = bits.iter().map(|bits| bits.contains(&wanted.0)).collect();
-    let found = stretches(0..bits.len() as u32 - 1, |i| inside[i], |i| inside[i + 1]);
-    let first = out.steps.start;
-    found.into_iter().map(move |(steps, attained)| Lesson {
-        episode: out.episode,
-        steps: first + steps.start..first + steps.end,
-        aim: Aim::Subgoal { attained },
-        goal: Some(wanted.clone()),
-        rewards: None,
-    })
+    draw::different(&weights, config.hindsight, rng).into_iter().map(|i| attained[i]).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Call, SkillId, Stop};
     use inroads_envs::Seed;
 
     fn bits(ones: &[usize]) -> Bits {
@@ -84,13 +61,6 @@ mod tests {
             let found = goals(&space, &path, &config(relabel), &mut rng);
             assert_eq!(found, [GoalId(1)], "0 and 3 held from the start, 2 is not plausible");
         }
-        let call = Call { skill: SkillId::GLOBAL, goal: None, budget: 3 };
-        let out = Outcome { call, episode: 7, steps: 10..13, stop: Stop::TimedOut, end: None };
-        let taught: Vec<_> = lessons(&out, &path, &Wanted(bits(&[1])))
-            .map(|lesson| (lesson.episode, lesson.steps, lesson.aim))
-            .collect();
-        let attained = Aim::Subgoal { attained: true };
-        assert_eq!(taught, [(7, 10..11, attained), (7, 12..13, attained)]);
     }
 
     #[test]

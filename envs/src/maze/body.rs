@@ -36,7 +36,7 @@ pub struct Body {
     /// What was last read while the simulation was sound.
     seen: Configuration,
     clearance: f64,
-    map: CellMap,
+    map: Option<CellMap>,
 }
 
 impl Body {
@@ -49,6 +49,18 @@ impl Body {
         if let Some([line, column]) = map.opening() {
             return Err(MazeError::Open { line, column });
         }
+        Self::among(model, physics, floor, Some(map))
+    }
+
+    /// A body on a floor of this height (metres) without walls and without end.
+    ///
+    /// # Errors
+    /// [`MazeError::Body`] when the model cannot be simulated or does not move freely.
+    pub fn on_open_floor(model: &Model, physics: Physics, floor: f32) -> Result<Self, MazeError> {
+        Self::among(model, physics, floor, None)
+    }
+
+    fn among(model: &Model, physics: Physics, floor: f32, map: Option<&CellMap>) -> Result<Self, MazeError> {
         if model.links.first().is_none_or(|root| root.joint != Joint::Free) {
             return Err(MazeError::Body(format!(
                 "the root of model {:?} is fixed; give its first body a free joint, so that it can walk",
@@ -58,13 +70,13 @@ impl Body {
         if model.actuators.is_empty() {
             return Err(MazeError::Body(format!("model {:?} has no actuators; give it motors", model.name)));
         }
-        let around = Surroundings { floor: Some(floor), walls: Some(map) };
+        let around = Surroundings { floor: Some(floor), walls: map };
         let sim = Articulated::new(std::slice::from_ref(model), around, physics)
             .map_err(|why| MazeError::Body(why.to_string()))?;
         let zero = sim.zero();
         let reach = sim.solids(|_, _| colour::TORSO).map(|solid| reach(&solid, &zero.q)).fold(0.0, f32::max);
         let clearance = f64::from(reach * (1.0 + POSITION_NOISE) + POSITION_NOISE);
-        Ok(Self { seen: zero.clone(), zero, sim, clearance, map: map.clone() })
+        Ok(Self { seen: zero.clone(), zero, sim, clearance, map: map.cloned() })
     }
 
     /// Positions and velocities now.
@@ -172,7 +184,7 @@ impl Robot for Body {
         self.sim.step(action).map_err(|fault| fault.to_string())?;
         let now = self.sim.configuration();
         let at = [now.q[0], now.q[1]];
-        if self.map.is_wall(at.map(f64::from)) {
+        if self.map.as_ref().is_some_and(|map| map.is_wall(at.map(f64::from))) {
             let [x, y] = at;
             return Err(format!(
                 "model {:?} was driven through a wall at ({x}, {y}); weaken it",

@@ -2,12 +2,15 @@
 //! clips an update, an update a step, a discount of 0.97, all of their steps in the replay.
 
 use inroads::{
-    agents::{Curious, Flat, Pace, Practice, Replay, TabularQ, novelty::Counts, tabular::TabularConfig},
+    agents::{
+        Curious, Flat, Pace, Practice, Replay, TabularQ, nets::Backend, novelty::Counts,
+        tabular::TabularConfig,
+    },
     assembly::{
-        graphs::{ImDsgConfig, im_dsg},
+        graphs::{self, ImDsg, ImDsgConfig},
         parts::PlannerKind,
     },
-    envs::{Space, Spec},
+    envs::{Seed, Space, Spec},
 };
 
 use super::Boxed;
@@ -34,6 +37,11 @@ pub(crate) const AGENTS: [Entrant; 4] = [
         build: |spec| flat(spec, &Simple { initial: 0.5, returns: 3, ..Simple::default() }),
     },
 ];
+
+/// IM-DSG on counts, which need neither backend nor seed.
+pub(crate) fn im_dsg(spec: &Spec, config: &ImDsgConfig) -> ImDsg {
+    graphs::im_dsg(spec, config, Backend::default(), Seed(0)).expect("counts fit everywhere")
+}
 
 /// IM-DSG as tuned.
 pub(crate) fn ours(planner: PlannerKind) -> ImDsgConfig {

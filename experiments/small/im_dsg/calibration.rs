@@ -5,10 +5,7 @@ use std::path::Path;
 
 use inroads::{
     agents::{Context, Transition, episode},
-    assembly::{
-        graphs::{ImDsg, im_dsg},
-        parts::PlannerKind,
-    },
+    assembly::{graphs::ImDsg, parts::PlannerKind},
     discovery::graph::Vertex,
     envs::{
         Environment, Rng, Seed, Snapshot, TimeLimit,
@@ -21,7 +18,7 @@ use rand::RngExt;
 use serde::Serialize;
 
 use super::{
-    agents::ours,
+    agents::{im_dsg, ours},
     worlds::{Visit, WORLDS, World},
 };
 use crate::support::over_seeds;

@@ -1,16 +1,12 @@
 //! The tuning budget: the same number of configurations for everybody, on DoorKey-6x6, on seeds of their own. Each is tried
 //! with returns of one, three and five steps of whatever learns the task's reward.
 
-use inroads::{
-    assembly::graphs::{ImDsgConfig, im_dsg},
-    envs::Spec,
-    statistics::median,
-};
+use inroads::{assembly::graphs::ImDsgConfig, envs::Spec, statistics::median};
 use serde::Serialize;
 
 use super::{
     Boxed,
-    agents::{Simple, flat},
+    agents::{Simple, flat, im_dsg},
     train,
     worlds::WORLDS,
 };

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use inroads::agents::classify::{Odds, OddsConfig};
-use inroads::agents::encode::{Scaled, Select};
-use inroads::agents::evaluate::{OneHot, Sigmoid, SigmoidConfig, Table, TableConfig};
+use inroads::agents::encode::{Choices, Scaled, Select};
+use inroads::agents::evaluate::{Sigmoid, SigmoidConfig, Table, TableConfig};
 use inroads::agents::nets::Backend;
 use inroads::discovery::initiation::{Bonus, IvfConfig, WeightedConfig, Weights};
 use inroads::discovery::{Ivf, Weighted};
@@ -123,7 +123,7 @@ impl Way {
                 let world = Symbolic::new(rooms(GOALS[0], 0.0), Layout::FixedMap(0));
                 let states = Arc::new(Scaled::new(&world.spec().observation));
                 let mut rng = Seed(seed).stream("initialise", 0);
-                let net = Sigmoid::new(states, Arc::new(OneHot(4)), 0, net, Backend::Flex, &mut rng);
+                let net = Sigmoid::new(states, Arc::new(Choices(4)), 0, net, Backend::Flex, &mut rng);
                 let config = IvfConfig { updates_per_step: *updates, ..config };
                 (Box::new(Ivf::<State, usize, _>::new(&config, net, |_| ())), true)
             }

@@ -10,7 +10,7 @@ use std::marker::PhantomData;
 use inroads_agents::{Bag, Checkpoint, Corrupt, Experience};
 use serde::{Deserialize, Serialize};
 
-use super::{Region, regions::distance, walks::laplace};
+use super::{Region, walks::laplace};
 use crate::graph::{Edge, SkillGraph, Vertex};
 use crate::{
     Goal, Initiation, SkillId, Subgoal,
@@ -315,4 +315,9 @@ impl<A, I: Checkpoint> Checkpoint for Atlas<A, I> {
         (self.graph, self.rows) = bag.get("vertices")?;
         bag.get_part("sets", &mut self.sets)
     }
+}
+
+/// Euclidean distance of two places.
+pub(super) fn distance(a: &[f32], b: &[f32]) -> f32 {
+    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f32>().sqrt()
 }

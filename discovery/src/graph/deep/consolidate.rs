@@ -5,11 +5,11 @@
 
 use std::{collections::BTreeMap, ops::Range};
 
-use inroads_agents::{Experience, tabular::argmax};
+use inroads_agents::{Experience, draw::argmax};
 use inroads_envs::Rng;
 use serde::{Deserialize, Serialize};
 
-use super::{atlas::Atlas, regions::distance};
+use super::atlas::{Atlas, distance};
 use crate::graph::Vertex;
 use crate::{Subgoal, chain::Gestation};
 

@@ -3,15 +3,15 @@
 
 use std::ops::Range;
 
-use inroads_agents::{Context, Experience, Lesson, experience::Aim};
+use inroads_agents::{Context, Experience, Lesson};
 use rand::RngExt;
 
 use super::{Attempt, DeepGraph, Region};
 use crate::graph::Vertex;
 use crate::{
-    Goal, Initiation, Outcome, SkillId, SkillPolicy, Stop,
+    Initiation, Outcome, SkillId, SkillPolicy, Stop,
     chain::{Gestation, OptionReward, Phase, SHORTEST, observation},
-    hindsight::stretches,
+    hindsight::lessons,
 };
 
 type All<A> = Experience<Vec<f32>, A>;
@@ -243,15 +243,13 @@ impl<A, I: Initiation<Vec<f32>, A>, P> DeepGraph<A, I, P> {
             self.ground.ball(place, self.config.tolerance)
         });
         for goal in out.call.goal.iter().chain(&achieved) {
-            let inside = |step: usize| goal.reached(&episode.observations[step]);
-            for (steps, attained) in stretches(steps.clone(), inside, |step| inside(step + 1)) {
+            for lesson in lessons(goal, out.episode, episode, steps.clone()) {
                 let rewards = (self.config.option_reward == OptionReward::Dense).then(|| {
-                    let afters = &episode.observations[steps.start as usize + 1..=steps.end as usize];
+                    let Range { start, end } = lesson.steps;
+                    let afters = &episode.observations[start as usize + 1..=end as usize];
                     afters.iter().map(|after| -goal.distance(after)).collect()
                 });
-                let aim = Aim::Subgoal { attained };
-                let lesson = Lesson { episode: out.episode, steps, aim, goal: Some(goal.clone()), rewards };
-                self.policy.lesson(out.call.skill, lesson);
+                self.policy.lesson(out.call.skill, Lesson { rewards, ..lesson });
             }
         }
     }

@@ -10,20 +10,19 @@ mod config;
 mod consolidate;
 mod learning;
 mod query;
-mod regions;
 mod sampled;
 mod travel;
 mod walks;
 
 pub use config::DeepGraphConfig;
-pub use regions::{Ground, Region};
+pub use inroads_agents::goal::{Ground, Region};
 
-use inroads_agents::{Checkpoint, Context, Experience, Memory, Transition, checkpoint, tabular::argmax};
+use inroads_agents::{Checkpoint, Context, Experience, Transition, checkpoint, draw::argmax};
 use inroads_envs::Spec;
 use rand::RngExt;
 
 use super::{Plan, Planner, Vertex};
-use crate::{Call, Discovery, Goal, Initiation, Outcome, SkillId, SkillPolicy};
+use crate::{Call, Discovery, Goal, Initiation, Outcome, SkillId, SkillPolicy, execution::Driver};
 use atlas::Atlas;
 use consolidate::Chains;
 use query::Progress;
@@ -54,9 +53,8 @@ checkpoint!([A, I, P] DeepGraph<A, I, P>; plain: chains, walks; parts: atlas, po
 /// What a deep graph keeps for one episode of one actor.
 #[derive(Clone, Debug, Default)]
 pub struct Lane {
-    /// The acting policy's memory, and whose it is.
-    memory: Memory,
-    owner: Option<SkillId>,
+    /// Who acts.
+    driver: Driver,
     /// Steps of the episode so far.
     clock: u32,
     /// Expansions tried in this episode.
@@ -319,7 +317,7 @@ where
         all: &Experience<Vec<f32>, A>,
         ctx: &mut Context,
     ) -> Call<Region> {
-        if let Some(o) = lane.owner.and_then(Vertex::of) {
+        if let Some(o) = lane.driver.owner().and_then(Vertex::of) {
             lane.failed = Some(o).filter(|o| !self.atlas.ended(*o, s));
         }
         let task = || self.task.clone().filter(|_| !ctx.explore);
@@ -327,16 +325,13 @@ where
             Some(goal) => self.pursuit(lane, &goal, s, all, ctx),
             None => self.errand(lane, s, all, ctx),
         };
-        if lane.owner != Some(call.skill) {
-            lane.memory.clear();
-            lane.owner = Some(call.skill);
-        }
+        lane.driver.hand_to(call.skill);
         call
     }
 
     fn act(&self, lane: &mut Lane, call: &Call<Region>, s: &Vec<f32>, ctx: &mut Context) -> A {
         lane.clock += 1;
-        self.policy.act(&mut lane.memory, call, s, ctx)
+        self.policy.act(lane.driver.memory(), call, s, ctx)
     }
 
     fn reached(&self, call: &Call<Region>, t: &Transition<Vec<f32>, A>) -> bool {

@@ -1,6 +1,6 @@
 //! On the way to a vertex by plans (6.1.3): which option to execute next, and where to go where none can be executed.
 
-use inroads_agents::{Context, Experience, tabular::argmax};
+use inroads_agents::{Context, Experience, draw::argmax};
 
 use super::{DeepGraph, Lane, Region};
 use crate::graph::{Plan, Vertex};

@@ -13,8 +13,7 @@ mod skilled;
 mod survey;
 
 use inroads_agents::{
-    Bag, Checkpoint, Context, Corrupt, Experience, Lesson, Memory, Transition, experience::Aim,
-    tabular::argmax,
+    Bag, Checkpoint, Context, Corrupt, Experience, Lesson, Memory, Transition, draw::argmax, experience::Aim,
 };
 use inroads_envs::End;
 use serde::{Deserialize, Serialize};

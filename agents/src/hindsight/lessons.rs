@@ -1,13 +1,11 @@
-//! What a subgoal can be taught by steps that somebody took on whatever errand (hindsight; Andrychowicz 2017).
+//! What a subgoal can be taught by steps that somebody took on whatever errand, as lessons.
 
 use std::ops::Range;
 
-use inroads_agents::{
-    Lesson,
+use crate::{
+    Goal, Lesson,
     experience::{Aim, Episode},
 };
-
-use crate::Goal;
 
 /// The stretches of some steps that teach a subgoal: each until the subgoal is attained, and the last one until the
 /// steps end without. Steps that begin inside the subgoal teach nothing: no skill is executed there.
@@ -62,7 +60,9 @@ pub fn lessons<O, A, G: Goal<O>>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Features;
+    use crate::goal::Ground;
+    use inroads_envs::Environment;
+    use inroads_envs::corridor::Corridor;
 
     #[test]
     fn each_stretch_ends_with_the_subgoal_and_none_begins_in_it() {
@@ -75,10 +75,10 @@ mod tests {
 
     #[test]
     fn a_stretch_becomes_a_lesson_about_its_goal() {
-        let observations = (0..8).map(|x| vec![x as f32]).collect();
+        let observations: Vec<_> = (0..8).map(|x| vec![x as f32]).collect();
         let (actions, rewards) = (vec![0; 7], vec![0.0; 7]);
         let episode = Episode { observations, actions, rewards, ..Episode::default() };
-        let goal = Features::of(&[4.0], [0], 0.5);
+        let goal = Ground::of(Corridor::new(8).spec()).unwrap().ball(vec![4.0], 0.5);
         let found = lessons(&goal, 9, &episode, 2..7);
         let lesson = |steps, attained| Lesson {
             episode: 9,

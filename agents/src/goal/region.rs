@@ -1,13 +1,13 @@
 //! Goal regions: balls around places (ε_g of thesis 6.1.1).
 
-use inroads_agents::{
-    Encode, Key,
-    tabular::{key, thousandths},
-};
 use inroads_envs::Spec;
 use serde::{Deserialize, Serialize};
 
-use crate::Goal;
+use super::Goal;
+use crate::{
+    Encode, Key,
+    tabular::{key, thousandths},
+};
 
 /// Which dimensions of an observation say where one is, and what values they can have.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,10 +19,15 @@ pub struct Ground {
 impl Ground {
     /// The places of a domain; none where one of their dimensions has no bounds, so that none can be drawn.
     pub fn of(spec: &Spec) -> Option<Self> {
+        Self::over(spec, &spec.place)
+    }
+
+    /// The same for the dimensions of these indices.
+    pub fn over(spec: &Spec, dims: &[usize]) -> Option<Self> {
         let dimensions = spec.observation.dimensions();
-        let bounds: Vec<_> = spec.place.iter().map(|&i| [dimensions[i].low, dimensions[i].high]).collect();
+        let bounds: Vec<_> = dims.iter().map(|&i| [dimensions[i].low, dimensions[i].high]).collect();
         let known = !bounds.is_empty() && bounds.iter().flatten().all(|bound| bound.is_finite());
-        known.then(|| Self { dims: spec.place.iter().map(|&i| i as u32).collect(), bounds })
+        known.then(|| Self { dims: dims.iter().map(|&i| i as u32).collect(), bounds })
     }
 
     /// Least and greatest value of each dimension.
@@ -103,11 +108,6 @@ impl Key for Region {
     fn key(&self) -> u128 {
         key(self.at.iter().map(|x| thousandths(*x)))
     }
-}
-
-/// Euclidean distance of two places.
-pub(super) fn distance(a: &[f32], b: &[f32]) -> f32 {
-    a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f32>().sqrt()
 }
 
 #[cfg(test)]
