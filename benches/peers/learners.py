@@ -338,9 +338,12 @@ def more(options):
         for who, train in [("ours", lambda: of_ours(0, steps, folder)), ("Stable-Baselines3", lambda: of_theirs(0, steps))]:
             episodes, rate = train()
             late = [value for at, value in episodes if at > steps / 2]
-            mean = sum(late) / max(len(late), 1)
-            print(f"| {who} | {rate:.0f} | {len(late)} | {mean:.1f} |", flush=True)
-            found.append({"who": who, "steps": steps, "a_second_by_the_clock": rate, "episodes": len(late), "return": mean})
+            mean = sum(late) / len(late) if late else None
+            print(f"| {who} | {rate:.0f} | {len(late)} | {mean if mean is None else round(mean, 1)} |", flush=True)
+            found.append({
+                "who": who, "steps": steps, "a_second_by_the_clock": round(rate, 1), "episodes": len(late),
+                "return": mean and round(mean, 1),
+            })  # fmt: skip
     return {"trainings": found}
 
 

@@ -126,14 +126,19 @@ def table(pairs, made, binary, options):
             ratios.append([2 * our / (one + other) for our, one, other in zip(between, before, after)])
         (mine, mine_clock), (theirs, theirs_clock), (ratios, clock) = (zip(*numbers) for numbers in (mine, theirs, ratios))
         print(f"| {name} | {rate(mine)} | {peer} | {rate(theirs)} | {spread(ratios)} |", flush=True)
+        middle = lambda numbers: short(statistics.median(numbers))
         found.append({
-            "ours": name, "peer": peer, "a_second": statistics.median(mine), "peer_a_second": statistics.median(theirs),
-            "ratio": [statistics.median(ratios), min(ratios), max(ratios)],
-            "a_second_by_the_clock": statistics.median(mine_clock),
-            "peer_a_second_by_the_clock": statistics.median(theirs_clock),
-            "ratio_by_the_clock": [statistics.median(clock), min(clock), max(clock)],
+            "ours": name, "peer": peer, "a_second": middle(mine), "peer_a_second": middle(theirs),
+            "ratio": [middle(ratios), short(min(ratios)), short(max(ratios))],
+            "a_second_by_the_clock": middle(mine_clock), "peer_a_second_by_the_clock": middle(theirs_clock),
+            "ratio_by_the_clock": [middle(clock), short(min(clock)), short(max(clock))],
         })  # fmt: skip
     return found
+
+
+def short(number):
+    """More digits than four say more than is known."""
+    return float(f"{number:.4g}")
 
 
 def alone(made, options):
