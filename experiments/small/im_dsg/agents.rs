@@ -38,7 +38,7 @@ pub(crate) const AGENTS: [Entrant; 4] = [
 /// IM-DSG as tuned.
 pub(crate) fn ours(planner: PlannerKind) -> ImDsgConfig {
     let mut config = ImDsgConfig { planner, ..ImDsgConfig::default() };
-    (config.novelty.weight, config.explorer.explore_for, config.frontier.returns) = (0.003, 40, 1);
+    (config.novelty.weight, config.explorer.explore_for) = (0.003, 40);
     config
 }
 
