@@ -41,7 +41,7 @@ fn remembering(capacity: usize) -> ImDsg {
     let pace = Pace { updates_per_step: 2.0, warm_up: 8 };
     let replay = Replay::new(capacity).paying(Pay::ATTAINMENT).spanning(3);
     let policy = Shared::new(tables(0.95), Practice::new(replay, pace));
-    let practice = Practice::new(Replay::new(capacity).spanning(3), pace);
+    let practice = Practice::new(Replay::new(capacity), pace);
     let curious = Curious::new(tables(0.9), practice)
         .sober(tables(0.9))
         .with_novelty(Box::new(Counts::default()), 0.01)

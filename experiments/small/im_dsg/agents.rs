@@ -46,7 +46,7 @@ pub(crate) fn im_dsg(spec: &Spec, config: &ImDsgConfig) -> ImDsg {
 /// IM-DSG as tuned.
 pub(crate) fn ours(planner: PlannerKind) -> ImDsgConfig {
     let mut config = ImDsgConfig { planner, ..ImDsgConfig::default() };
-    (config.novelty.weight, config.explorer.explore_for, config.frontier.returns) = (0.003, 40, 1);
+    (config.novelty.weight, config.explorer.explore_for) = (0.003, 40);
     config
 }
 
