@@ -195,7 +195,7 @@ impl<O, G: Encode> Learner<O, Vec<f32>, G> for Ddpg<O> {
         self.nets.values(self.encode(goals.iter().map(|goal| (s, *goal))))
     }
 
-    fn learn(&mut self, clips: &[Clip<O, Vec<f32>, G>], _: &mut Context) -> Learned {
+    fn learn(&mut self, clips: &[Clip<O, Vec<f32>, G>], ctx: &mut Context) -> Learned {
         if clips.is_empty() {
             return Learned::default();
         }
@@ -209,10 +209,17 @@ impl<O, G: Encode> Learner<O, Vec<f32>, G> for Ddpg<O> {
         let clip = config.gradient_clip;
         let critic = Step { rate: config.critic_rate, decay: config.critic_decay, clip };
         let actor = Step { rate: config.actor_rate, decay: 0.0, clip };
-        let errors = self.nets.learn(before, actions, targets, critic, actor, config.preactivation);
+        let (errors, refused) =
+            self.nets.learn(before, actions, targets, critic, actor, config.preactivation);
+        let learned = Learned::of(errors);
+        ctx.check("loss of the critic", learned.loss);
+        if let Some(gradient) = refused {
+            ctx.check(gradient, f32::NAN);
+            return learned;
+        }
         self.nets.follow(config.tau);
         self.updates += 1;
-        Learned::of(errors)
+        learned
     }
 
     fn batch(&self) -> usize {
@@ -312,6 +319,22 @@ mod tests {
         });
         let y = targets(returns.into_iter(), &[1.0, 1.0, 1.0]);
         assert!((y[0] + 0.01).abs() < 1e-6 && y[1] == -1.0 && y[2] == y[0]);
+    }
+
+    #[test]
+    fn an_update_whose_loss_is_no_number_changes_nothing_and_is_told() {
+        let mut rng = Seed(3).stream("weights", 0);
+        let mut learner: Ddpg<Vec<f32>> =
+            Ddpg::new(Arc::new(Row), 1, &small(), Backend::of_tests(), &mut rng);
+        bandit(&mut learner, 0);
+        let before = saved(&learner);
+        let mut ctx = Context::training(Seed(0), 0);
+        let observations = [vec![0.2, -0.4], vec![0.1, 0.9]];
+        let rewards = Rewards::Given(&[1e30]);
+        learner.learn(&[Clip::new(&observations, &[vec![0.5]], rewards, None::<&()>, true)], &mut ctx);
+        let what = "loss of the critic";
+        assert_eq!(ctx.fault, Some(crate::Fault::Learning { what, value: f32::INFINITY }));
+        assert!(saved(&learner) == before);
     }
 
     #[test]

@@ -1,17 +1,17 @@
 //! An agent and its environment, of kinds that are known.
 
-use inroads_agents::{Actor, Bag, Context, Corrupt, episode};
+use inroads_agents::{Actor, Bag, Context, Corrupt, Halt, episode};
 use inroads_discovery::record::{GoalRecord, GraphRecord, PlanRecord, Query, SkillRecord};
-use inroads_envs::{Annotated, Frame, Refused, Seed, Spec};
+use inroads_envs::{Annotated, Frame, Seed, Spec, check::Observed};
 
 use super::{
-    Action, BoxedEnvironment, EpisodeMetrics, PlanError, Protocol, Session, Spot, Travelled, Watched,
-    spot::Located, travel::Journey,
+    Action, BoxedEnvironment, EpisodeMetrics, PlanError, Protocol, Session, Spot, Stopped, Travelled,
+    Watched, spot::Located, travel::Journey,
 };
 use crate::assembly::{BoxedAgent, Vector};
 
 /// An observation, perhaps with a vector in it, which figures are drawn from.
-pub(super) trait Seen: Clone + Default + PartialEq {
+pub(super) trait Seen: Observed {
     /// What is seen, as numbers; none where it is a picture.
     fn seen(&self) -> Option<&Vector>;
 
@@ -57,6 +57,11 @@ pub(super) struct Pair<O, A> {
     env_steps: u64,
 }
 
+/// Which episode stopped, and after how many steps since those before it.
+fn stopped(episode: u64, before: u64, Halt { step, fault }: Halt) -> Stopped {
+    Stopped { episode, step: before + u64::from(step), fault }
+}
+
 impl<O: Seen, A: Clone> Pair<O, A> {
     pub(super) fn new(env: BoxedEnvironment<O, A>, agent: BoxedAgent<O, A>, seed: Seed) -> Self {
         Self { env, agent, seed, episodes: 0, env_steps: 0 }
@@ -76,14 +81,15 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
         self.env.spec()
     }
 
-    fn train(&mut self) -> Result<EpisodeMetrics, Refused> {
+    fn train(&mut self) -> Result<EpisodeMetrics, Stopped> {
         let number = self.episodes;
         let mut ctx = Context::training(self.seed, number);
         let mut skill_steps = 0;
         let start = self.seed.number("train-start", number);
         let summary = episode(&mut *self.env, &mut *self.agent, start, &mut ctx, |_, source| {
             skill_steps += u32::from(source > 0);
-        })?;
+        })
+        .map_err(|halt| stopped(number, self.env_steps, halt))?;
         self.episodes += 1;
         self.env_steps += u64::from(summary.steps);
         Ok(EpisodeMetrics {
@@ -103,7 +109,7 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
         (self.episodes, self.env_steps)
     }
 
-    fn evaluate(&mut self, protocol: Protocol, index: u64) -> Result<Option<Watched>, Refused> {
+    fn evaluate(&mut self, protocol: Protocol, index: u64) -> Result<Option<Watched>, Stopped> {
         let actor: Option<Box<dyn Actor<O, A> + '_>> = match protocol {
             Protocol::Frozen => Some(self.agent.frozen()),
             Protocol::ChainAlone => self.agent.chain_alone(),
@@ -120,7 +126,8 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
             path.extend(t.after.seen().cloned());
             skills.push(source);
             actions.push(t.action.clone().into());
-        })?;
+        })
+        .map_err(|halt| stopped(index, 0, halt))?;
         Ok(Some(Watched { path, skills, start, actions, covered, summary }))
     }
 
@@ -157,7 +164,8 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
         let mut journey = Journey::new(&*self.agent, [from?, to?])?;
         let mut ctx = Context::evaluation(self.seed, index);
         let start = self.seed.number("evaluate-start", index);
-        let summary = episode(&mut *self.env, &mut journey, start, &mut ctx, |_, _| ())?;
+        let summary = episode(&mut *self.env, &mut journey, start, &mut ctx, |_, _| ())
+            .map_err(|halt| stopped(index, 0, halt))?;
         let [departed, arrived] = journey.reached();
         Ok(Travelled { departed, arrived, summary })
     }

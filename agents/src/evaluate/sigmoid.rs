@@ -159,6 +159,7 @@ impl<O, A, G: Encode> Evaluator<O, A, G> for Sigmoid<O, A> {
         }
         let step = Step { rate: self.config.rate, decay: 0.0, clip: 0.0 };
         let loss = self.net.learn(learned, &targets, step);
+        ctx.check("loss of the evaluator", loss);
         self.net.follow(self.config.tau);
         loss
     }

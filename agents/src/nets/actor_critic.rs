@@ -78,7 +78,7 @@ impl ActorCritic {
 
     /// One step of the critic towards these values of these actions, and one of the actor uphill on the
     /// critic, which also pays `preactivation` times the mean square of what enters its tanh; the critic's
-    /// errors before.
+    /// errors before, and which gradient was not finite, so that its step was not made.
     pub(crate) fn learn(
         &mut self,
         states: Vec<f32>,
@@ -87,7 +87,7 @@ impl ActorCritic {
         critic_step: Step,
         actor_step: Step,
         preactivation: f32,
-    ) -> Vec<f32> {
+    ) -> (Vec<f32>, Option<&'static str>) {
         let states = rows(states, self.inputs, &self.device);
         let actions = rows(actions, self.actions, &self.device);
         let targets = rows(targets, 1, &self.device);
@@ -99,7 +99,9 @@ impl ActorCritic {
         let loss = (error.clone() * error).mean();
         let grads = GradientsParams::from_grads(loss.backward(), &critic);
         drop((loss, critic)); // so that the parameters are changed in place
-        self.critic_adam.step(critic_step, &mut self.critic, grads);
+        if !self.critic_adam.step(critic_step, &mut self.critic, grads) {
+            return (errors, Some("gradient of the critic"));
+        }
 
         // The critic is frozen here: only the actor's gradient is computed.
         let actor = self.actor.clone().train();
@@ -109,8 +111,8 @@ impl ActorCritic {
         let loss = (entering.clone() * entering).mean() * preactivation - q.mean();
         let grads = GradientsParams::from_grads(loss.backward(), &actor);
         drop(actor);
-        self.actor_adam.step(actor_step, &mut self.actor, grads);
-        errors
+        let made = self.actor_adam.step(actor_step, &mut self.actor, grads);
+        (errors, (!made).then_some("gradient of the actor"))
     }
 
     /// The targets follow by one step of size `tau`.
