@@ -4,7 +4,7 @@ mod support;
 
 use std::{fs, io};
 
-use support::{Folder, fail, inroads, newest_checkpoint, small_training, succeed};
+use support::{Folder, fail, inroads, newest_checkpoint, numbers, small_training, succeed};
 
 /// Training arguments that must be refused; the error's text. Nothing may have been written.
 fn refused(arguments: &[&str]) -> String {
@@ -154,9 +154,45 @@ fn a_nan_action_ends_the_training_with_the_component_named() {
     let folder = Folder::new("nan");
     let run = folder.join("run");
     let mut training = small_training(&run, 20);
-    training.args(["--set", "policy.actor_rate=1e38", "--set", "policy.critic_rate=1e38"]);
+    training.args(["--set", "policy.actor_rate=1e38"]);
     let text = fail(&mut training);
-    assert!(text.contains("action component 0 is NaN"), "{text}");
+    assert!(text.contains("action component 0 is NaN") && text.contains("gradient_clip"), "{text}");
+}
+
+#[test]
+fn a_training_that_diverges_stops_at_its_last_good_episode_and_says_what_diverged() {
+    let folder = Folder::new("diverges");
+    let (run, good) = (folder.join("run"), folder.join("good"));
+    let training = |out: &std::path::Path, episodes: u64| {
+        let mut command = small_training(out, episodes);
+        command.args(["--set", "policy.critic_rate=1e30", "--set", "policy.batch=32"]);
+        // Nothing is learned in the first two episodes of at most 200 steps; a checkpoint comes after four.
+        command.args(["--set", "memory.warm_up=450"]);
+        command
+    };
+    let said = fail(&mut training(&run, 20));
+    assert!(said.contains("the gradient of the actor is NaN"), "{said}");
+    assert!(said.contains("policy.critic_rate") && said.contains("policy.gradient_clip"), "{said}");
+    let episodes = numbers(&run.join("metrics.jsonl"), "episode").len() as u64;
+    let steps = *numbers(&run.join("metrics.jsonl"), "env_steps").last().unwrap();
+    assert!(said.contains(&format!("training stopped in episode {episodes}, step ")), "{said}");
+    assert!(steps > 0 && steps < 450, "{steps}");
+
+    // What is saved is what a run has that ended before that episode, to the bit.
+    let newest = newest_checkpoint(&run);
+    assert!(
+        newest.ends_with(format!("{episodes:08}.ckpt")) && said.contains(newest.to_str().unwrap()),
+        "{said}"
+    );
+    succeed(&mut training(&good, episodes));
+    assert!(fs::read(&newest).unwrap() == fs::read(newest_checkpoint(&good)).unwrap());
+
+    // It can be looked at; and who goes on meets the same fault.
+    succeed(inroads(&["evaluate"]).arg(&run));
+    let mut resume = inroads(&["train", "dsc", "point-corridor", "--resume", "--out"]);
+    let again = fail(resume.arg(&run));
+    let fault = |text: &str| text.split_once("training stopped").map(|(_, fault)| fault.to_owned());
+    assert_eq!(fault(&again), fault(&said));
 }
 
 #[test]

@@ -126,7 +126,8 @@ impl<O, L> Curious<O, L> {
             if let Some(sober) = sober {
                 // What it did not remember itself is not its memory.
                 let own: Vec<_> = clips.iter().map(|clip| Clip { memory: &[], ..*clip }).collect();
-                sober.learn(&own, ctx);
+                let learned = sober.learn(&own, ctx);
+                ctx.check("loss of the policy that does not explore", learned.loss);
             }
             match novelty {
                 None => learner.learn(clips, ctx),

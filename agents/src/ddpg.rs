@@ -157,7 +157,7 @@ impl<O, G: Encode> Learner<O, Vec<f32>, G> for Ddpg<O> {
         self.nets.values(self.inputs.rows(goals.iter().map(|goal| (s, *goal))))
     }
 
-    fn learn(&mut self, clips: &[Clip<O, Vec<f32>, G>], _: &mut Context) -> Learned {
+    fn learn(&mut self, clips: &[Clip<O, Vec<f32>, G>], ctx: &mut Context) -> Learned {
         if clips.is_empty() {
             return Learned::default();
         }
@@ -170,11 +170,20 @@ impl<O, G: Encode> Learner<O, Vec<f32>, G> for Ddpg<O> {
         let clip = config.gradient_clip;
         let critic = Step { rate: config.critic_rate, decay: config.critic_decay, clip, ..Step::default() };
         let actor = Step { rate: config.actor_rate, clip, ..Step::default() };
-        let errors = self.nets.learn_critics(&batch, critic);
-        self.nets.learn_actor(batch.states, actor, config.preactivation);
+        let (errors, made) = self.nets.learn_critics(&batch, critic);
+        let learned = Learned::of(errors);
+        ctx.check("loss of the critic", learned.loss);
+        if !made {
+            ctx.check("gradient of the critic", f32::NAN);
+            return learned;
+        }
+        if !self.nets.learn_actor(batch.states, actor, config.preactivation) {
+            ctx.check("gradient of the actor", f32::NAN);
+            return learned;
+        }
         self.nets.follow(config.tau);
         self.updates += 1;
-        Learned::of(errors)
+        learned
     }
 
     fn batch(&self) -> usize {

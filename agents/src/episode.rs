@@ -1,9 +1,9 @@
 //! One episode: a [`round`] of one lane. There is no other loop; training, evaluation and pictures go through it.
 
-use inroads_envs::{End, Environment, Refused};
+use inroads_envs::{End, Environment, check::Observed};
 
 use crate::{
-    Actor, Context, Transition,
+    Actor, Context, Halt, Transition,
     lanes::{Alone, round},
 };
 
@@ -26,15 +26,16 @@ pub struct Summary {
 /// the actor chose the action ([`Actor::source`]).
 ///
 /// # Errors
-/// The action that the environment refused; the actor has not observed it.
-pub fn episode<E: Environment + ?Sized>(
+/// [`Halt`] at the action that the environment refused, or at an observation or a reward that is no finite number of the
+/// spec's shape: the actor has not seen those. And at what it says of its own learning ([`Context::check`]).
+pub fn episode<E: Environment<Observation: Observed> + ?Sized>(
     env: &mut E,
     actor: &mut (impl Actor<E::Observation, E::Action> + ?Sized),
     seed: u64,
     ctx: &mut Context,
     mut watch: impl FnMut(&Transition<E::Observation, E::Action>, usize),
-) -> Result<Summary, Refused> {
+) -> Result<Summary, Halt> {
     let watch = |_, t: &Transition<E::Observation, E::Action>, source| watch(t, source);
-    let mut summaries = round(&mut [env], &mut Alone(actor), &[seed], std::slice::from_mut(ctx), watch)?;
-    Ok(summaries.pop().expect("there is one lane"))
+    let summaries = round(&mut [env], &mut Alone(actor), &[seed], std::slice::from_mut(ctx), watch);
+    Ok(summaries.map_err(|(_, halt)| halt)?.pop().expect("there is one lane"))
 }

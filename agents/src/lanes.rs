@@ -6,9 +6,9 @@
 
 use std::ops::DerefMut;
 
-use inroads_envs::{Environment, Refused, Step};
+use inroads_envs::{Environment, Step, check::Observed};
 
-use crate::{Actor, Context, Summary, Transition};
+use crate::{Actor, Context, Fault, Halt, Summary, Transition};
 
 /// Who can act in several episodes that go on side by side.
 pub trait Crowd<O, A> {
@@ -55,21 +55,22 @@ impl<O, A, T: Actor<O, A> + ?Sized> Crowd<O, A> for Alone<'_, T> {
 /// every transition after the agent has: its lane, itself, and which part of the agent chose the action.
 ///
 /// # Errors
-/// The action that an environment refused; the agent has not observed it.
+/// The lane that cannot go on, and why: an action that was refused, an observation that is not of the spec's space, a reward
+/// or a loss that is no finite number. Nobody has learned from it.
 ///
 /// # Panics
 /// When there are fewer seeds or contexts than environments.
-pub fn round<E: Environment + ?Sized>(
+pub fn round<E: Environment<Observation: Observed> + ?Sized>(
     envs: &mut [impl DerefMut<Target = E>],
     agent: &mut (impl Crowd<E::Observation, E::Action> + ?Sized),
     seeds: &[u64],
     ctxs: &mut [Context],
     mut watch: impl FnMut(usize, &Transition<E::Observation, E::Action>, usize),
-) -> Result<Vec<Summary>, Refused> {
+) -> Result<Vec<Summary>, (usize, Halt)> {
     let (mut before, mut after) = (vec![E::Observation::default(); envs.len()], E::Observation::default());
     for (lane, env) in envs.iter_mut().enumerate() {
         env.reset(seeds[lane]);
-        env.observe(&mut before[lane]);
+        look(&mut **env, &mut before[lane]).map_err(|fault| (lane, Halt { step: 0, fault }))?;
         agent.begin_lane(lane, &before[lane], &mut ctxs[lane]);
     }
     let mut tallies = vec![(0, 0.0); envs.len()];
@@ -80,15 +81,22 @@ pub fn round<E: Environment + ?Sized>(
         agent.act_lanes(&running, &before, ctxs, &mut actions);
         for (&lane, action) in running.iter().zip(&actions) {
             let env = &mut *envs[lane];
-            let step @ Step { reward, end } = env.step(action)?;
-            env.observe(&mut after);
             let (steps, total) = &mut tallies[lane];
             *steps += 1;
+            let halt = |fault| (lane, Halt { step: *steps, fault });
+            let step @ Step { reward, end } = env.step(action).map_err(|refused| halt(refused.into()))?;
+            if !reward.is_finite() {
+                return Err(halt(Fault::Reward(reward)));
+            }
+            look(env, &mut after).map_err(halt)?;
             *total += reward;
             let source = agent.source_of(lane);
             let transition = Transition { before: &before[lane], action, reward, after: &after, end };
             agent.observe_lane(lane, &transition, &mut ctxs[lane]);
             watch(lane, &transition, source);
+            if let Some(fault) = ctxs[lane].fault.take() {
+                return Err((lane, Halt { step: *steps, fault }));
+            }
             summaries[lane] = end.map(|end| Summary {
                 steps: *steps,
                 reward: *total,
@@ -101,6 +109,15 @@ pub fn round<E: Environment + ?Sized>(
         running.retain(|&lane| summaries[lane].is_none());
     }
     Ok(summaries.into_iter().flatten().collect())
+}
+
+/// Looks, and judges what there is to see.
+fn look<E>(env: &mut E, out: &mut E::Observation) -> Result<(), Fault>
+where
+    E: Environment<Observation: Observed> + ?Sized,
+{
+    env.observe(out);
+    out.flaw(&env.spec().observation).map_or(Ok(()), |flaw| Err(flaw.into()))
 }
 
 #[cfg(test)]

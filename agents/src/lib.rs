@@ -15,6 +15,7 @@ pub mod encode;
 pub mod episode;
 pub mod evaluate;
 pub mod experience;
+mod fault;
 pub mod flat;
 pub mod goal;
 pub mod hindsight;
@@ -40,6 +41,7 @@ pub use encode::{Encode, Encoder};
 pub use episode::{Summary, episode};
 pub use evaluate::Evaluator;
 pub use experience::{Clip, Experience, Lesson};
+pub use fault::{Fault, Halt};
 pub use flat::Flat;
 pub use goal::Goal;
 pub use lanes::{Crowd, round};
@@ -66,12 +68,23 @@ pub struct Context {
     pub acting: Rng,
     /// Stream for learning: minibatches, initial weights.
     pub learning: Rng,
+    /// The first number of an update that was none; the episode ends with it ([`check`](Self::check)).
+    pub fault: Option<Fault>,
 }
 
 impl Context {
     /// The context of training episode number `index`.
     pub fn training(seed: Seed, index: u64) -> Self {
-        Self { explore: true, acting: seed.stream("act", index), learning: seed.stream("learn", index) }
+        let (acting, learning) = (seed.stream("act", index), seed.stream("learn", index));
+        Self { explore: true, acting, learning, fault: None }
+    }
+
+    /// Whoever learns tells here what its updates come to, a loss say: the first that is NaN or infinite ends the episode,
+    /// and with it the training. Such an update must not have been applied.
+    pub fn check(&mut self, what: &'static str, value: f32) {
+        if !value.is_finite() {
+            self.fault.get_or_insert(Fault::Learning { what, value });
+        }
     }
 
     /// The context of evaluation episode number `index`: no exploration.
@@ -80,6 +93,7 @@ impl Context {
             explore: false,
             acting: seed.stream("evaluate-act", index),
             learning: seed.stream("evaluate-learn", index),
+            fault: None,
         }
     }
 }

@@ -49,7 +49,8 @@ impl<G> Practice<G> {
         }
     }
 
-    /// Makes so many updates, as soon as there are as many steps to draw from as a batch has clips.
+    /// Makes so many updates, as soon as there are as many steps to draw from as a batch has clips. None after one whose
+    /// loss is no finite number, which ends the episode ([`Context::check`]).
     pub fn practise<O, A>(
         &mut self,
         updates: u64,
@@ -63,9 +64,17 @@ impl<G> Practice<G> {
             return;
         }
         for _ in 0..updates {
+            if ctx.fault.is_some() {
+                return;
+            }
             let mut clips = Vec::with_capacity(batch);
             let numbers = self.replay.sample(all, batch, &mut ctx.learning, &mut clips);
             let learned = learn(&clips, ctx);
+            ctx.check("loss", learned.loss);
+            learned.errors.iter().for_each(|error| ctx.check("error of a clip", *error));
+            if ctx.fault.is_some() {
+                return;
+            }
             self.replay.revise(&numbers, &learned.errors);
             self.updates += 1;
         }

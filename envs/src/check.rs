@@ -11,7 +11,7 @@ mod kinds;
 #[cfg(test)]
 mod tests;
 
-pub use fault::Fault;
+pub use fault::{Fault, Flaw};
 pub use kinds::{Drawn, Observed};
 
 use rand::RngExt;
@@ -185,7 +185,7 @@ where
 {
     let mut seen = E::Observation::default();
     env.observe(&mut seen);
-    if let Some(why) = seen.fault(&env.spec().observation) {
+    if let Some(why) = seen.flaw(&env.spec().observation) {
         return Err(Fault::Observation { seed, step, seen: seen.told(), why });
     }
     for mut used in E::Observation::used() {

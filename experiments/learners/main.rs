@@ -11,10 +11,10 @@ mod dqn;
 mod mpc;
 mod r2d2_frames;
 mod recall;
-mod td3_ant;
-mod td3_reacher;
 #[path = "../support.rs"]
 mod support;
+mod td3_ant;
+mod td3_reacher;
 
 use std::{path::PathBuf, process::ExitCode};
 

@@ -9,6 +9,7 @@ use inroads::{
     discovery::record::GoalRecord,
     envs::{
         Environment, Seed, Snapshot,
+        check::Observed,
         registry::{self, AnyAnnotated, AnyEnvironment, Options},
         taxi::{Rules, Taxi, TaxiState},
         world::{Layout, World},
@@ -130,7 +131,7 @@ fn attempt(recipe: &Recipe, protocol: &Protocol, seed: u64) -> Attempt<Trial> {
     }
 }
 
-fn run<O: Clone + Default>(
+fn run<O: Observed>(
     env: &mut (impl Environment<Observation = O, Action = usize> + ?Sized),
     build: Build<O, usize>,
     config: &Config,

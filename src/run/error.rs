@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use inroads_envs::Refused;
 
-use crate::config::ConfigError;
+use crate::{config::ConfigError, session::Stopped};
 
 /// What is wrong with a run, and how to mend it.
 #[derive(Debug, thiserror::Error)]
@@ -12,11 +12,39 @@ pub enum RunError {
     /// The configuration is at fault.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// The environment refused an action of the agent.
-    #[error(
-        "the environment refused an action: {0}. Training diverged; try smaller rates (`policy.actor_rate`)"
-    )]
+    /// The environment refused an action of a film.
+    #[error("the environment refused an action: {0}")]
     Refused(#[from] Refused),
+    /// An episode of an evaluation could not go on.
+    #[error("evaluation stopped in {0}")]
+    Evaluation(#[from] Stopped),
+    /// Training could not go on.
+    #[error("training stopped in {stopped}. What was learned before that episode is saved: {file}")]
+    Stopped {
+        /// What happened, and when.
+        stopped: Stopped,
+        /// The checkpoint.
+        file: PathBuf,
+    },
+    /// Training could not go on, nor be saved.
+    #[error("training stopped in {stopped}. The episodes since the newest checkpoint are lost: {why}")]
+    StoppedUnsaved {
+        /// What happened, and when.
+        stopped: Stopped,
+        /// Why the end of the last whole episode could not be saved.
+        why: Box<Self>,
+    },
+    /// An episode that was lived again went otherwise.
+    #[error(
+        "episode {episode}, lived again from {file}, was another one; an environment or an agent draws from elsewhere than \
+         its seed"
+    )]
+    Unlike {
+        /// The episode.
+        episode: u64,
+        /// The checkpoint before it.
+        file: PathBuf,
+    },
     /// A folder is in the way.
     #[error("{0} exists already and nothing in it was touched; choose another --out, or go on with --resume")]
     Exists(PathBuf),

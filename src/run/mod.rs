@@ -8,6 +8,7 @@ mod checkpoint;
 mod error;
 mod folder;
 mod growth;
+mod stopped;
 mod summary;
 
 pub use error::RunError;
@@ -100,7 +101,9 @@ impl Run {
     /// Trains until the configuration's end, or until `stop` is set; `watch` sees each episode.
     ///
     /// # Errors
-    /// [`RunError`] when a file cannot be written or the environment refused an action.
+    /// [`RunError`] when a file cannot be written. [`RunError::Stopped`] when an action was refused, or an observation, a
+    /// reward or a loss is no finite number: what was learned up to the end of the last whole episode is saved then, and
+    /// the run stands there.
     pub fn train(
         &mut self,
         stop: &AtomicBool,
@@ -109,6 +112,11 @@ impl Run {
         let (first_episode, first_step) = self.session.progress();
         let began = Instant::now();
         let mut saved = first_episode;
+        if first_episode == 0 {
+            // Whatever happens to the first episodes, there is something to begin again from.
+            self.save()?;
+        }
+        let mut fault = None;
         let ended = loop {
             if self.done() {
                 break Ended::Complete;
@@ -117,7 +125,14 @@ impl Run {
                 break Ended::Interrupted;
             }
             let round_began = Instant::now();
-            let round = self.session.train()?;
+            let round = match self.session.train() {
+                Ok(round) => round,
+                Err(stopped) => {
+                    fault = Some(self.stopped(stopped));
+                    saved = self.session.progress().0;
+                    break Ended::Interrupted;
+                }
+            };
             let steps: u32 = round.iter().map(|metrics| metrics.steps).sum();
             let pace = round_began.elapsed().as_secs_f64() / f64::from(steps);
             for metrics in &round {
@@ -135,7 +150,7 @@ impl Run {
         }
         let seconds = began.elapsed().as_secs_f64();
         self.folder.log_session(first_episode, episodes - first_episode, steps - first_step, seconds)?;
-        Ok(ended)
+        fault.map_or(Ok(ended), Err)
     }
 
     fn done(&self) -> bool {

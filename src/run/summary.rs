@@ -161,7 +161,7 @@ impl Run {
     /// Watches `n` frozen episodes; none when the agent has nothing to act with under that protocol.
     ///
     /// # Errors
-    /// The action that the environment refused.
+    /// [`RunError::Evaluation`] when an episode could not go on.
     pub fn evaluate(&mut self, protocol: Protocol, n: u64) -> Result<Vec<Watched>, RunError> {
         (0..n)
             .filter_map(|index| self.session.evaluate(protocol, index).transpose())

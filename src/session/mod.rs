@@ -11,7 +11,7 @@ mod travel;
 pub use spot::{PlanError, Spot};
 pub use travel::Travelled;
 
-use inroads_agents::{Bag, Corrupt, Summary};
+use inroads_agents::{Bag, Corrupt, Fault, Summary};
 use inroads_discovery::record::{GoalRecord, GraphRecord, PlanRecord, SkillRecord};
 use inroads_envs::{
     Annotated, Environment, Frame, Refused, Seed, Spec,
@@ -102,6 +102,32 @@ impl Watched {
     }
 }
 
+/// An episode that could not go on: which, when, why, and what may mend it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("episode {episode}, step {step} of the environment: {fault}; {}", mend(.fault))]
+pub struct Stopped {
+    /// The episode's number.
+    pub episode: u64,
+    /// Steps of the environment up to then: in training since its beginning, else in this episode.
+    pub step: u64,
+    /// What happened.
+    pub fault: Fault,
+}
+
+/// What may help.
+fn mend(fault: &Fault) -> &'static str {
+    match fault {
+        Fault::Observation(_) | Fault::Reward(_) => {
+            "mend the environment: `envs::check::check` finds what is wrong with it"
+        }
+        Fault::Refused(Refused::NotFinite { .. }) | Fault::Learning { .. } => {
+            "training diverged: try smaller rates (`policy.rate`, `policy.actor_rate`, `policy.critic_rate`) or a bound of the \
+             gradient (`policy.gradient_clip`)"
+        }
+        Fault::Refused(_) => "agent and environment disagree on what can be done",
+    }
+}
+
 /// How an evaluation acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Protocol {
@@ -119,8 +145,9 @@ pub trait Session {
     /// Trains for a round: an episode a lane.
     ///
     /// # Errors
-    /// The action that the environment refused.
-    fn train(&mut self) -> Result<Vec<EpisodeMetrics>, Refused>;
+    /// [`Stopped`] at an action that was refused, or at an observation, a reward or a loss that is no finite number. The
+    /// session is in the midst of the episode then: [`load`](Self::load) what was saved before it.
+    fn train(&mut self) -> Result<Vec<EpisodeMetrics>, Stopped>;
 
     /// Episodes trained so far, and steps of the environment in them.
     fn progress(&self) -> (u64, u64);
@@ -128,8 +155,8 @@ pub trait Session {
     /// Evaluation episode number `index`; none when the agent has nothing to act with under that protocol.
     ///
     /// # Errors
-    /// The action that the environment refused.
-    fn evaluate(&mut self, protocol: Protocol, index: u64) -> Result<Option<Watched>, Refused>;
+    /// [`Stopped`] at an action that was refused, or at what is no finite number.
+    fn evaluate(&mut self, protocol: Protocol, index: u64) -> Result<Option<Watched>, Stopped>;
 
     /// The agent's skills.
     fn skills(&self) -> Vec<SkillRecord>;
@@ -154,7 +181,7 @@ pub trait Session {
     /// reached too, within the same time limit.
     ///
     /// # Errors
-    /// [`PlanError`] when there is no graph or no such place, or the environment refused an action.
+    /// [`PlanError`] when there is no graph or no such place, or the episode could not go on.
     fn travel(&mut self, from: &Spot, to: &Spot, index: u64) -> Result<Travelled, PlanError>;
 
     /// Everything learned, with the progress.

@@ -2,18 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use inroads_agents::{Actor, Bag, Context, Corrupt, Summary, Transition, episode, lanes::Alone, round};
+use inroads_agents::{Actor, Bag, Context, Corrupt, Halt, Summary, Transition, episode, lanes::Alone, round};
 use inroads_discovery::record::{GoalRecord, GraphRecord, PlanRecord, Query, SkillRecord};
-use inroads_envs::{Annotated, Frame, Refused, Seed, Spec};
+use inroads_envs::{Annotated, Frame, Seed, Spec, check::Observed};
 
 use super::{
-    Action, BoxedEnvironment, EpisodeMetrics, PlanError, Protocol, Session, Spot, Travelled, Watched,
-    spot::Located, travel::Journey,
+    Action, BoxedEnvironment, EpisodeMetrics, PlanError, Protocol, Session, Spot, Stopped, Travelled,
+    Watched, spot::Located, travel::Journey,
 };
 use crate::assembly::{BoxedAgent, Vector};
 
 /// An observation, perhaps with a vector in it, which figures are drawn from.
-pub(super) trait Seen: Clone + Default + PartialEq {
+pub(super) trait Seen: Observed {
     /// What is seen, as numbers; none where it is a picture.
     fn seen(&self) -> Option<&Vector>;
 
@@ -60,6 +60,11 @@ pub(super) struct Pair<O, A> {
     env_steps: u64,
 }
 
+/// Which episode stopped, and after how many steps since those before it.
+fn stopped(episode: u64, before: u64, Halt { step, fault }: Halt) -> Stopped {
+    Stopped { episode, step: before + u64::from(step), fault }
+}
+
 impl<O: Seen, A: Clone> Pair<O, A> {
     pub(super) fn new(envs: Vec<BoxedEnvironment<O, A>>, agent: BoxedAgent<O, A>, seed: Seed) -> Self {
         Self { envs, agent, seed, episodes: 0, env_steps: 0 }
@@ -79,7 +84,7 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
         self.envs[0].spec()
     }
 
-    fn train(&mut self) -> Result<Vec<EpisodeMetrics>, Refused> {
+    fn train(&mut self) -> Result<Vec<EpisodeMetrics>, Stopped> {
         let numbers = self.episodes..self.episodes + self.envs.len() as u64;
         let starts: Vec<_> = numbers.clone().map(|n| self.seed.number("train-start", n)).collect();
         let mut ctxs: Vec<_> = numbers.clone().map(|n| Context::training(self.seed, n)).collect();
@@ -87,9 +92,10 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
         let watch =
             |lane: usize, _: &Transition<'_, O, A>, source| skill_steps[lane] += u32::from(source > 0);
         let summaries = match self.agent.crowd() {
-            Some(crowd) => round(&mut self.envs, crowd, &starts, &mut ctxs, watch)?,
-            None => round(&mut self.envs, &mut Alone(&mut *self.agent), &starts, &mut ctxs, watch)?,
-        };
+            Some(crowd) => round(&mut self.envs, crowd, &starts, &mut ctxs, watch),
+            None => round(&mut self.envs, &mut Alone(&mut *self.agent), &starts, &mut ctxs, watch),
+        }
+        .map_err(|(lane, halt)| stopped(numbers.start + lane as u64, self.env_steps, halt))?;
         let updates: BTreeMap<_, _> =
             self.agent.updates().into_iter().map(|(name, n)| (name.to_owned(), n)).collect();
         let skills = self.agent.skills().len();
@@ -115,7 +121,7 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
         (self.episodes, self.env_steps)
     }
 
-    fn evaluate(&mut self, protocol: Protocol, index: u64) -> Result<Option<Watched>, Refused> {
+    fn evaluate(&mut self, protocol: Protocol, index: u64) -> Result<Option<Watched>, Stopped> {
         let actor: Option<Box<dyn Actor<O, A> + '_>> = match protocol {
             Protocol::Frozen => Some(self.agent.frozen()),
             Protocol::ChainAlone => self.agent.chain_alone(),
@@ -132,7 +138,8 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
             path.extend(t.after.seen().cloned());
             skills.push(source);
             actions.push(t.action.clone().into());
-        })?;
+        })
+        .map_err(|halt| stopped(index, 0, halt))?;
         Ok(Some(Watched { path, skills, start, actions, covered, summary }))
     }
 
@@ -169,7 +176,8 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
         let mut journey = Journey::new(&*self.agent, [from?, to?])?;
         let mut ctx = Context::evaluation(self.seed, index);
         let start = self.seed.number("evaluate-start", index);
-        let summary = episode(&mut *self.envs[0], &mut journey, start, &mut ctx, |_, _| ())?;
+        let summary = episode(&mut *self.envs[0], &mut journey, start, &mut ctx, |_, _| ())
+            .map_err(|halt| stopped(index, 0, halt))?;
         let [departed, arrived] = journey.reached();
         Ok(Travelled { departed, arrived, summary })
     }

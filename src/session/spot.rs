@@ -3,9 +3,9 @@
 use std::{fmt, str::FromStr};
 
 use inroads_discovery::record::{GraphRecord, Place, Skilled};
-use inroads_envs::{Goal, Refused, Space, Spec};
+use inroads_envs::{Goal, Space, Spec};
 
-use super::pair::Seen;
+use super::{Stopped, pair::Seen};
 
 /// How near one is there where bodies move and the task has no region of its own, in units of the place: the mazes' 0.6 m
 /// (thesis 6.2).
@@ -95,9 +95,9 @@ pub enum PlanError {
         /// Where it should end.
         to: Spot,
     },
-    /// The environment refused an action on the way.
-    #[error(transparent)]
-    Refused(#[from] Refused),
+    /// The episode could not go on.
+    #[error("stopped on the way in {0}")]
+    Stopped(#[from] Stopped),
 }
 
 /// Vertices in words.

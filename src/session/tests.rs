@@ -1,9 +1,9 @@
 //! Plans and journeys of an agent whose graph is known; what there is to know of one that sees pictures.
 
 use inroads_discovery::record::{GraphRecord, Query};
-use inroads_envs::{Frame, Seed};
+use inroads_envs::{Dimension, Environment, Frame, Refused, Seed, Space, Spec, Step, TimeLimit};
 
-use super::{PlanError, Protocol, Spot, stub};
+use super::{PlanError, Protocol, Session, Spot, Stopped, stub};
 use crate::config::Config;
 
 #[test]
@@ -72,4 +72,90 @@ fn of_pictures_there_are_no_coordinates_to_be_watched_or_planned_to() {
     let agent = crate::assembly::agent("q-learning").unwrap().pictured.unwrap();
     let agent = agent(spec, &config.agent, config.settings.backend, Seed(0)).unwrap();
     assert!(start.holds(&*agent, &first) && !start.holds(&*agent, &other));
+}
+
+/// A corridor of five cells in which something is wrong from the seventh step of an episode on.
+struct Ill {
+    spec: Spec,
+    at: f32,
+    steps: u32,
+    what: What,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum What {
+    Seen(f32),
+    Paid(f32),
+    Shape,
+}
+
+impl Environment for Ill {
+    type Observation = Vec<f32>;
+    type Action = usize;
+
+    fn spec(&self) -> &Spec {
+        &self.spec
+    }
+
+    fn reset(&mut self, _: u64) {
+        (self.at, self.steps) = (2.0, 0);
+    }
+
+    fn step(&mut self, choice: &usize) -> Result<Step, Refused> {
+        self.spec.action.admit_choice(*choice)?;
+        self.at = (self.at + *choice as f32 * 2.0 - 1.0).clamp(0.0, 4.0);
+        self.steps += 1;
+        let reward = match self.what {
+            What::Paid(wrong) if self.steps >= 7 => wrong,
+            _ => 0.0,
+        };
+        Ok(Step { reward, end: None })
+    }
+
+    fn observe(&mut self, out: &mut Vec<f32>) {
+        out.clear();
+        out.extend([self.at, 0.0]);
+        match self.what {
+            What::Seen(wrong) if self.steps >= 7 => out[1] = wrong,
+            What::Shape if self.steps >= 7 => out.push(0.0),
+            _ => {}
+        }
+    }
+}
+
+fn ill(what: What) -> (Box<dyn Session>, Stopped) {
+    let cell = Dimension::linear("cell", "", 0.0, 4.0);
+    let spec = Spec {
+        name: "ill",
+        about: "",
+        observation: Space::Box([cell, Dimension::linear("light", "", 0.0, 1.0)].into()),
+        action: Space::Discrete(2),
+        goal: None,
+        place: vec![0],
+        time_limit: Some(20),
+        success_reward: 1.0,
+    };
+    let env = TimeLimit::new(Ill { spec, at: 0.0, steps: 0, what }, 20);
+    let mut session =
+        super::discrete(Box::new(env), &Config::defaults("q-learning", "ill").unwrap()).unwrap();
+    let stopped = session.train().unwrap_err();
+    (session, stopped)
+}
+
+#[test]
+fn what_is_no_number_is_named_with_its_step_before_anybody_learns_of_it() {
+    let said = |what| ill(what).1.to_string();
+    let head = "episode 0, step 7 of the environment: ";
+    let mend = "; mend the environment: `envs::check::check` finds what is wrong with it";
+    for (what, told) in [
+        (What::Seen(f32::NAN), "observation component 1 (light) is NaN"),
+        (What::Seen(f32::NEG_INFINITY), "observation component 1 (light) is -inf"),
+        (What::Paid(f32::NAN), "the reward is NaN"),
+        (What::Shape, "the observation has 3 components where the spec has 2 components"),
+    ] {
+        assert_eq!(said(what), format!("{head}{told}{mend}"));
+    }
+    let (mut session, _) = ill(What::Paid(f32::NAN));
+    assert_eq!(session.progress(), (0, 0), "an episode that stopped is none");
+    assert!(session.evaluate(Protocol::Frozen, 0).is_err());
 }

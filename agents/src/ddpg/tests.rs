@@ -60,6 +60,21 @@ fn only_a_termination_cuts_the_target() {
 }
 
 #[test]
+fn an_update_whose_loss_is_no_number_changes_nothing_and_is_told() {
+    let mut rng = Seed(3).stream("weights", 0);
+    let mut learner: Ddpg<Vec<f32>> = Ddpg::new(Arc::new(Row), 1, &small(), Backend::of_tests(), &mut rng);
+    bandit(&mut learner, 0);
+    let before = saved(&learner);
+    let mut ctx = Context::training(Seed(0), 0);
+    let observations = [vec![0.2, -0.4], vec![0.1, 0.9]];
+    let rewards = Rewards::Given(&[1e30]);
+    learner.learn(&[Clip::new(&observations, &[vec![0.5]], rewards, None::<&()>, true)], &mut ctx);
+    let what = "loss of the critic";
+    assert_eq!(ctx.fault, Some(crate::Fault::Learning { what, value: f32::INFINITY }));
+    assert!(saved(&learner) == before);
+}
+
+#[test]
 fn a_goal_is_read_beside_the_observation_and_none_is_zeros() {
     struct Bit(f32);
     impl Encode for Bit {

@@ -201,7 +201,7 @@ impl<O, G: Encode> Learner<O, usize, G> for Dqn<O> {
             epsilon: config.adam_epsilon,
             ..Step::default()
         };
-        nets.learn(asked, step, |outputs| {
+        let made = nets.learn(asked, step, |outputs| {
             // The loss's derivative by each output: 0 for the choices that were not made.
             let mut slopes = vec![0.0; outputs.len()];
             for (i, (clip, target)) in clips.iter().zip(targets.chunks_exact(row)).enumerate() {
@@ -215,6 +215,9 @@ impl<O, G: Encode> Learner<O, usize, G> for Dqn<O> {
             }
             slopes
         });
+        if !made {
+            ctx.check("gradient of the values", f32::NAN);
+        }
         self.updates += 1;
         if self.updates.is_multiple_of(self.config.follow_every) {
             self.nets.follow(self.config.tau);

@@ -142,6 +142,7 @@ impl<O, A, G: Encode> Evaluator<O, A, G> for Sigmoid<O, A> {
         let step = Step { rate: self.config.rate, ..Step::default() };
         let weights: Vec<f32> = clips.iter().chain(clips).map(|clip| clip.weight).collect();
         let loss = self.net.learn(learned, &targets, &weights, step);
+        ctx.check("loss of the evaluator", loss);
         self.net.follow(self.config.tau);
         loss
     }

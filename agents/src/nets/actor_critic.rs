@@ -119,8 +119,9 @@ impl ActorCritic {
         rows(states, self.inputs, &self.device)
     }
 
-    /// One step of all critics towards a batch; their errors before, all rows of the first critic, then of the next.
-    pub(crate) fn learn_critics(&mut self, batch: &Batch, step: Step) -> Vec<f32> {
+    /// One step of all critics towards a batch; their errors before, all rows of the first critic, then of the next, and
+    /// whether the step was made.
+    pub(crate) fn learn_critics(&mut self, batch: &Batch, step: Step) -> (Vec<f32>, bool) {
         let tracked = |values: &[f32], width| rows(values.to_vec(), width, &self.device).autodiff();
         let states = tracked(&batch.states, self.inputs);
         let actions = tracked(&batch.actions, self.actions);
@@ -136,13 +137,13 @@ impl ActorCritic {
         let loss = losses.reduce(|a, b| a + b).expect("there is a critic");
         let grads = GradientsParams::from_grads(loss.backward(), &critics);
         drop((loss, critics)); // so that the parameters are changed in place
-        self.critic_adam.step(step, &mut self.critics, grads);
-        errors
+        let made = self.critic_adam.step(step, &mut self.critics, grads);
+        (errors, made)
     }
 
     /// One step of the actor uphill on the first critic at these states, which also pays `preactivation` times the mean
-    /// square of what enters its tanh.
-    pub(crate) fn learn_actor(&mut self, states: Vec<f32>, step: Step, preactivation: f32) {
+    /// square of what enters its tanh; whether the step was made.
+    pub(crate) fn learn_actor(&mut self, states: Vec<f32>, step: Step, preactivation: f32) -> bool {
         let states = self.states(states).autodiff();
         // The critic is frozen here: only the actor's gradient is computed.
         let actor = self.actor.clone().train();
@@ -152,7 +153,7 @@ impl ActorCritic {
         let loss = (entering.clone() * entering).mean() * preactivation - q.mean();
         let grads = GradientsParams::from_grads(loss.backward(), &actor);
         drop(actor);
-        self.actor_adam.step(step, &mut self.actor, grads);
+        self.actor_adam.step(step, &mut self.actor, grads)
     }
 
     /// The targets follow by one step of size `tau`.

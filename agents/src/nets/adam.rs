@@ -11,8 +11,6 @@ use burn::optim::GradientsParams;
 use burn::tensor::Tensor;
 use serde::{Deserialize, Serialize};
 
-use super::floats;
-
 /// Decay of the mean of gradients; the paper's value, and PyTorch's.
 const BETA1: f32 = 0.9;
 /// Decay of the mean of squared gradients; the paper's value, and PyTorch's.
@@ -49,16 +47,24 @@ pub(crate) struct Adam {
 }
 
 impl Adam {
-    /// One step of the module down these gradients.
-    pub(crate) fn step<M: Module + Default>(&mut self, step: Step, module: &mut M, grads: GradientsParams) {
+    /// One step of the module down these gradients; whether it was made. None is made, and nothing changes, when the square
+    /// of one of them is not finite: the parameters would never be numbers again. Whoever asked for it must tell
+    /// ([`Context::check`](crate::Context::check)).
+    #[must_use]
+    pub(crate) fn step<M: Module + Default>(
+        &mut self,
+        step: Step,
+        module: &mut M,
+        grads: GradientsParams,
+    ) -> bool {
+        let mut size = Size { grads: &grads, squares: (step.clip > 0.0).then_some(0.0), greatest: 0 };
+        module.visit(&mut size);
+        let (greatest, norm) = (f32::from_bits(size.greatest), size.squares.map(f32::sqrt));
+        if !((greatest * greatest).is_finite() && norm.is_none_or(f32::is_finite)) {
+            return false;
+        }
+        let scale = norm.map_or(1.0, |norm| (step.clip / norm.max(f32::MIN_POSITIVE)).min(1.0));
         self.steps += 1;
-        let scale = if step.clip > 0.0 {
-            let mut norm = SquaredNorm { grads: &grads, sum: 0.0 };
-            module.visit(&mut norm);
-            (step.clip / norm.sum.sqrt().max(f32::MIN_POSITIVE)).min(1.0)
-        } else {
-            1.0
-        };
         // Bias corrections, folded into the rate and epsilon as the paper's section 2 suggests.
         let t = self.steps as f64;
         let first = 1.0 - f64::from(BETA1).powf(t);
@@ -73,18 +79,28 @@ impl Adam {
             epsilon: (f64::from(step.epsilon) * second) as f32,
         };
         *module = take(module).map(&mut update);
+        true
     }
 }
 
-struct SquaredNorm<'a> {
+/// How large a gradient is.
+struct Size<'a> {
     grads: &'a GradientsParams,
-    sum: f32,
+    /// The sum of its squares, where somebody asks for it.
+    squares: Option<f32>,
+    /// The bits of its greatest magnitude. Those of infinity are above those of all numbers and those of NaN above them, and
+    /// integers are compared many at a time.
+    greatest: u32,
 }
 
-impl ModuleVisitor for SquaredNorm<'_> {
+impl ModuleVisitor for Size<'_> {
     fn visit_float<const D: usize>(&mut self, param: &Param<Tensor<D>>) {
-        if let Some(grad) = self.grads.get::<D>(param.id) {
-            self.sum += floats(grad).iter().map(|g| g * g).sum::<f32>();
+        let Some(grad) = self.grads.get::<D>(param.id) else { return };
+        let grad = grad.into_data();
+        let grad: &[f32] = grad.as_slice().expect("our tensors are f32");
+        self.greatest = grad.iter().fold(self.greatest, |most, g| most.max(g.abs().to_bits()));
+        if let Some(squares) = &mut self.squares {
+            *squares += grad.iter().map(|g| g * g).sum::<f32>();
         }
     }
 }
@@ -161,7 +177,7 @@ mod tests {
         let (mut p, mut m, mut v) = ([1.0_f64, 2.0], [0.0; 2], [0.0; 2]);
         for (t, grads) in [[0.5, -3.0], [-0.1, 2.0], [0.0, 1e-4], [7.0, 0.3]].into_iter().enumerate() {
             let given = gradients(&one, grads[0] as f32, grads[1] as f32, &device);
-            adam.step(step, &mut one, given);
+            assert!(adam.step(step, &mut one, given));
             for i in 0..2 {
                 let g = grads[i] + 0.1 * p[i];
                 m[i] = 0.9 * m[i] + 0.1 * g;
@@ -181,12 +197,33 @@ mod tests {
         let device = Backend::of_tests().plain();
         let (mut one, mut adam) = (module(&device), Adam::default());
         let given = gradients(&one, 3.0, -4.0, &device);
-        adam.step(Step { rate: 0.01, clip: 1.0, ..Step::default() }, &mut one, given);
+        assert!(adam.step(Step { rate: 0.01, clip: 1.0, ..Step::default() }, &mut one, given));
         let means: Vec<f32> = adam.moments.iter().map(|(mean, _)| mean[0]).collect();
         assert!((means[0] - 0.06).abs() < 1e-6 && (means[1] + 0.08).abs() < 1e-6, "{means:?}");
 
         let before = values(&one);
-        adam.step(Step { rate: 0.01, clip: 1.0, ..Step::default() }, &mut one, GradientsParams::new());
+        assert!(adam.step(
+            Step { rate: 0.01, clip: 1.0, ..Step::default() },
+            &mut one,
+            GradientsParams::new()
+        ));
         assert_eq!(values(&one), before);
+    }
+
+    #[test]
+    fn a_gradient_that_is_not_finite_changes_nothing() {
+        let device = Backend::of_tests().plain();
+        for clip in [0.0, 1.0] {
+            let step = Step { rate: 0.01, clip, ..Step::default() };
+            let (mut one, mut adam) = (module(&device), Adam::default());
+            let given = gradients(&one, 3.0, -4.0, &device);
+            assert!(adam.step(step, &mut one, given));
+            let before = (values(&one), adam.clone());
+            for wrong in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e20] {
+                let given = gradients(&one, 3.0, wrong, &device);
+                assert!(!adam.step(step, &mut one, given));
+                assert_eq!((values(&one), adam.clone()), before);
+            }
+        }
     }
 }

@@ -93,8 +93,13 @@ impl DeepQ {
         parts.map(|(numbers, width)| (!numbers.is_empty()).then(|| rows(numbers, width, &self.device)))
     }
 
-    /// One step down a loss, whose derivatives by the outputs `slopes` finds from these.
-    pub(crate) fn learn(&mut self, asked: Asked, step: Step, slopes: impl FnOnce(&[f32]) -> Vec<f32>) {
+    /// One step down a loss, whose derivatives by the outputs `slopes` finds from these; whether it was made.
+    pub(crate) fn learn(
+        &mut self,
+        asked: Asked,
+        step: Step,
+        slopes: impl FnOnce(&[f32]) -> Vec<f32>,
+    ) -> bool {
         let online = self.online.clone().train();
         let [states, goals, noise] = self.tensors(asked).map(|part| part.map(Tensor::autodiff));
         let outputs = online.forward(states.expect("somebody is asked about"), goals, noise);
@@ -103,7 +108,7 @@ impl DeepQ {
         let loss = (outputs * rows(slopes, width, &self.device).autodiff()).sum();
         let grads = GradientsParams::from_grads(loss.backward(), &online);
         drop((loss, online)); // so that the parameters are changed in place
-        self.adam.step(step, &mut self.online, grads);
+        self.adam.step(step, &mut self.online, grads)
     }
 
     /// The target follows by one step of size `tau`.

@@ -40,7 +40,7 @@ impl ProbabilityNet {
     }
 
     /// One step towards these targets in [0, 1] down the cross-entropy, in which each row counts what it weighs; its mean
-    /// before the step.
+    /// before the step, NaN where it was not made because its gradient was not finite.
     ///
     /// The derivative of the cross-entropy by a logit is p − y: none vanishes while the network is wrong, as those of
     /// the squared error do.
@@ -59,8 +59,8 @@ impl ProbabilityNet {
         let pull = (logits * rows(slopes, 1, &self.device).autodiff()).sum();
         let grads = GradientsParams::from_grads(pull.backward(), &online);
         drop((pull, online)); // so that the parameters are changed in place
-        self.adam.step(step, &mut self.online, grads);
-        loss / n
+        let made = self.adam.step(step, &mut self.online, grads);
+        if made { loss / n } else { f32::NAN }
     }
 
     /// The target follows by one step of size `tau`.

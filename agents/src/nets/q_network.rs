@@ -68,7 +68,7 @@ impl QNetwork {
     }
 
     /// One step of the values of these choices towards these targets; `slope` is the derivative of the loss by
-    /// the error. The errors before the step.
+    /// the error. The errors before the step; NaN where it was not made, because its gradient was not finite.
     pub(crate) fn learn(
         &mut self,
         states: Vec<f32>,
@@ -92,7 +92,9 @@ impl QNetwork {
         let loss = (q * rows(slopes, outputs, &self.device).autodiff()).sum();
         let grads = GradientsParams::from_grads(loss.backward(), &online);
         drop((loss, online));
-        self.adam.step(step, &mut self.online, grads);
+        if !self.adam.step(step, &mut self.online, grads) {
+            errors.fill(f32::NAN);
+        }
         errors
     }
 

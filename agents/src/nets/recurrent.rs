@@ -180,10 +180,10 @@ impl RecurrentNet {
         Pass { online, target, tracked, features: kept, read, trace, put_out, values }
     }
 
-    /// One step down these derivatives of a loss by the values of a pass.
-    pub(crate) fn back(&mut self, pass: Pass, sizes: &[usize], slopes: Vec<f32>, step: Step) {
+    /// One step down these derivatives of a loss by the values of a pass; whether it was made.
+    pub(crate) fn back(&mut self, pass: Pass, sizes: &[usize], slopes: Vec<f32>, step: Step) -> bool {
         let grads = self.gradients(pass, sizes, slopes);
-        self.adam.step(step, &mut self.online, grads);
+        self.adam.step(step, &mut self.online, grads)
     }
 
     /// The derivatives by all weights.

@@ -89,8 +89,13 @@ impl Regression {
     }
 
     /// One step down the mean square of the errors: `errors` says of the outputs before the step how far each is above
-    /// its target.
-    pub(crate) fn learn(&mut self, states: Vec<f32>, errors: impl FnOnce(&[f32]) -> Vec<f32>, step: Step) {
+    /// its target. Whether it was made.
+    pub(crate) fn learn(
+        &mut self,
+        states: Vec<f32>,
+        errors: impl FnOnce(&[f32]) -> Vec<f32>,
+        step: Step,
+    ) -> bool {
         let net = self.net.clone().train();
         let outputs = net.forward(rows(states, self.inputs, &self.device).autodiff());
         let [_, width] = outputs.dims();
@@ -100,7 +105,7 @@ impl Regression {
         let pull = (outputs * rows(slopes, width, &self.device).autodiff()).sum();
         let grads = GradientsParams::from_grads(pull.backward(), &net);
         drop((pull, net)); // so that the parameters are changed in place
-        self.adam.step(step, &mut self.net, grads);
+        self.adam.step(step, &mut self.net, grads)
     }
 }
 
@@ -123,7 +128,7 @@ mod tests {
     use inroads_envs::Seed;
 
     fn net(shape: Shape) -> Regression {
-        let torso = TorsoConfig { embedding: 8, merges: vec![8], hidden: vec![32] };
+        let torso = TorsoConfig { embedding: 8, merges: vec![8], hidden: vec![32], ..TorsoConfig::default() };
         Regression::random(shape, 3, &torso, Backend::of_tests(), &mut Seed(4).stream("weights", 0))
     }
 
@@ -139,7 +144,7 @@ mod tests {
             assert!(net.outputs(states.clone()).iter().all(|x| x.abs() < 0.05));
             let errors = |now: &[f32]| now.iter().zip(targets).map(|(x, y)| x - y).collect::<Vec<_>>();
             let step = Step { rate: 0.01, ..Step::default() };
-            (0..400).for_each(|_| net.learn(states.clone(), errors, step));
+            (0..400).for_each(|_| assert!(net.learn(states.clone(), errors, step)));
             let left = errors(&net.outputs(states));
             assert!(left.iter().all(|error| error.abs() < 0.02), "{left:?}");
         }
@@ -149,11 +154,12 @@ mod tests {
     fn a_slope_is_twice_the_mean_error() {
         // Adam's first step is the rate in the direction of the slope: a bias shows its sign.
         let mut net = net(Shape::Row(2)).quiet();
-        net.learn(
+        let made = net.learn(
             vec![0.0, 0.0],
             |now| now.iter().map(|x| x - 1.0).collect(),
             Step { rate: 0.1, ..Step::default() },
         );
+        assert!(made);
         for output in net.outputs(vec![0.0, 0.0]) {
             assert!((output - 0.1).abs() < 1e-3, "{output}");
         }

@@ -61,7 +61,7 @@ impl Regressor {
         floats(self.net.forward(rows(inputs, self.inputs, &self.device), self.slope))
     }
 
-    /// One step down the mean square error of these rows; that error before the step.
+    /// One step down the mean square error of these rows; that error before the step, NaN where it was not made.
     pub(crate) fn learn(&mut self, inputs: Vec<f32>, targets: Vec<f32>, step: Step) -> f32 {
         let net = self.net.clone().train();
         let tracked = |values, width| rows(values, width, &self.device).autodiff();
@@ -70,8 +70,7 @@ impl Regressor {
         let before = floats(loss.clone().inner())[0];
         let grads = GradientsParams::from_grads(loss.backward(), &net);
         drop((loss, net)); // so that the parameters are changed in place
-        self.adam.step(step, &mut self.net, grads);
-        before
+        if self.adam.step(step, &mut self.net, grads) { before } else { f32::NAN }
     }
 }
 

@@ -160,8 +160,8 @@ impl<O> Cfn<O> {
     }
 
     /// One update on visits drawn by priority.
-    fn learn(&mut self, all: &dyn Seen<O>, rng: &mut Rng) {
-        let numbers = self.visits.draw(self.config.batch, rng, |at| all.seen(at).is_some());
+    fn learn(&mut self, all: &dyn Seen<O>, ctx: &mut Context) {
+        let numbers = self.visits.draw(self.config.batch, &mut ctx.learning, |at| all.seen(at).is_some());
         let visits: Vec<_> = numbers.iter().filter_map(|number| self.visits.get(*number)).collect();
         let seen: Vec<&O> = visits.iter().filter_map(|visit| all.seen(visit.at)).collect();
         if seen.is_empty() {
@@ -172,7 +172,7 @@ impl<O> Cfn<O> {
         let coins = self.config.coins as usize;
         let mut said = Vec::new();
         let step = Step { rate: self.config.rate, ..Step::default() };
-        self.learned.learn(
+        let made = self.learned.learn(
             rows,
             |outputs| {
                 said.extend_from_slice(outputs);
@@ -184,6 +184,9 @@ impl<O> Cfn<O> {
             },
             step,
         );
+        if !made {
+            ctx.check("gradient of the novelty", f32::NAN);
+        }
         let shares = self.shares(&said);
         self.visits.revise(&numbers, &shares);
         self.updates += 1;
@@ -222,7 +225,7 @@ impl<O> Novelty<O> for Cfn<O> {
             self.watch(all);
         }
         if self.count >= pace.warm_up as u64 {
-            (0..due).for_each(|_| self.learn(all, &mut ctx.learning));
+            (0..due).for_each(|_| self.learn(all, ctx));
         }
     }
 }

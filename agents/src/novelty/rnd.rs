@@ -127,16 +127,18 @@ impl<O> Rnd<O> {
     }
 
     /// One update on these states and others as they come.
-    fn learn<'a>(&mut self, mut seen: Vec<&'a O>, all: &'a dyn Seen<O>, rng: &mut Rng) {
+    fn learn<'a>(&mut self, mut seen: Vec<&'a O>, all: &'a dyn Seen<O>, ctx: &mut Context) {
         seen.truncate(self.config.batch);
         for _ in seen.len()..self.config.batch {
-            let at = self.visits[rng.random_range(0..self.visits.len())];
+            let at = self.visits[ctx.learning.random_range(0..self.visits.len())];
             seen.extend(all.seen(at));
         }
         let rows = self.rows(&seen);
         let targets = self.target.outputs(rows.clone());
         let errors = |outputs: &[f32]| outputs.iter().zip(&targets).map(|(x, y)| x - y).collect();
-        self.predictor.learn(rows, errors, Step { rate: self.config.rate, ..Step::default() });
+        if !self.predictor.learn(rows, errors, Step { rate: self.config.rate, ..Step::default() }) {
+            ctx.check("gradient of the novelty", f32::NAN);
+        }
         self.updates += 1;
     }
 }
@@ -180,7 +182,7 @@ impl<O> Novelty<O> for Rnd<O> {
         self.fresh = 0;
         self.usual.watch(&encode::rows(&*self.encoder, fresh.iter().copied()));
         if self.count >= pace.warm_up as u64 {
-            (0..due).for_each(|_| self.learn(std::mem::take(&mut fresh), all, &mut ctx.learning));
+            (0..due).for_each(|_| self.learn(std::mem::take(&mut fresh), all, ctx));
         }
     }
 }

@@ -200,7 +200,7 @@ impl<O, G: Encode> Learner<O, usize, G> for R2d2<O> {
         values.chunks_exact(self.choices).map(worth).cycle().take(goals.len()).collect()
     }
 
-    fn learn(&mut self, clips: &[Clip<O, usize, G>], _: &mut Context) -> Learned {
+    fn learn(&mut self, clips: &[Clip<O, usize, G>], ctx: &mut Context) -> Learned {
         if clips.is_empty() {
             return Learned::default();
         }
@@ -241,7 +241,9 @@ impl<O, G: Encode> Learner<O, usize, G> for R2d2<O> {
         }
         let R2d2Config { rate, adam_epsilon: epsilon, gradient_clip: clip, .. } = self.config;
         let step = Step { rate, epsilon, clip, ..Step::default() };
-        self.nets.back(pass, &packing.sizes, slopes, step);
+        if !self.nets.back(pass, &packing.sizes, slopes, step) {
+            ctx.check("gradient of the values", f32::NAN);
+        }
         self.updates += 1;
         if self.updates.is_multiple_of(self.config.follow_every) {
             self.nets.catch_up();

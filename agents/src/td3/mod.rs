@@ -192,10 +192,15 @@ impl<O, G: Encode> Learner<O, Vec<f32>, G> for Td3<O> {
         let batch = batch(&self.inputs, clips, self.targets(clips, ctx));
         let config = &self.config;
         let step = |rate| Step { rate, clip: config.gradient_clip, ..Step::default() };
-        let both = self.nets.learn_critics(&batch, step(config.critic_rate));
+        let (both, made) = self.nets.learn_critics(&batch, step(config.critic_rate));
+        if !made {
+            ctx.check("gradient of the critics", f32::NAN);
+        }
         self.updates += 1;
-        if self.updates.is_multiple_of(u64::from(config.delay)) {
-            self.nets.learn_actor(batch.states, step(config.actor_rate), config.preactivation);
+        if made && self.updates.is_multiple_of(u64::from(config.delay)) {
+            if !self.nets.learn_actor(batch.states, step(config.actor_rate), config.preactivation) {
+                ctx.check("gradient of the actor", f32::NAN);
+            }
             self.nets.follow(config.tau);
         }
         let (first, second) = both.split_at(clips.len());

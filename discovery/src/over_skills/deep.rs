@@ -105,7 +105,8 @@ impl<O> PolicyOverSkills<O> for DeepOverSkills<O> {
                 }
             })
             .collect();
-        self.network.learn(&samples);
+        let loss = self.network.learn(&samples);
+        ctx.check("loss of the policy over options", loss);
     }
 
     fn grow(&mut self, triggers: &[O]) {

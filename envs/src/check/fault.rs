@@ -1,6 +1,31 @@
 //! What can be wrong with an environment.
 
+use std::borrow::Cow;
+
 use crate::{End, Refused};
+
+/// What is wrong with an observation.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Flaw {
+    /// It has another shape than the spec says.
+    #[error("the observation has {found} where the spec has {expected}")]
+    Shape {
+        /// What it has.
+        found: String,
+        /// What it must have.
+        expected: String,
+    },
+    /// A component is NaN or infinite.
+    #[error("observation component {index} ({name}) is {value}")]
+    NotFinite {
+        /// Which component.
+        index: usize,
+        /// What the spec calls it.
+        name: Cow<'static, str>,
+        /// Its value.
+        value: f32,
+    },
+}
 
 /// A clause of the contract that an environment breaks.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -18,7 +43,7 @@ pub enum Fault {
         /// The observation.
         seen: String,
         /// What is wrong with it.
-        why: &'static str,
+        why: Flaw,
     },
     /// `observe` left something of what the buffer held.
     #[error("seed {seed}, step {step}: observe leaves part of what the buffer held; write all of it")]

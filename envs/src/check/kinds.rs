@@ -4,12 +4,25 @@ use std::fmt::Debug;
 
 use rand::RngExt;
 
+use super::Flaw;
 use crate::{Annotated, Bits, Dimension, Frame, Rng, Space};
+
+/// The shape of a space in words.
+fn shape(space: &Space) -> String {
+    match space {
+        Space::Frame { width, height, channels } => format!("{width} by {height} pixels of {channels} bytes"),
+        other => components(other.len()),
+    }
+}
+
+fn components(n: usize) -> String {
+    format!("{n} component{}", if n == 1 { "" } else { "s" })
+}
 
 /// Observations that can be checked.
 pub trait Observed: Clone + Default + PartialEq + Debug {
     /// What is wrong with an observation of this space.
-    fn fault(&self, space: &Space) -> Option<&'static str>;
+    fn flaw(&self, space: &Space) -> Option<Flaw>;
     /// Buffers that hold something already.
     fn used() -> Vec<Self>;
     /// The observation in a line, for people.
@@ -19,11 +32,13 @@ pub trait Observed: Clone + Default + PartialEq + Debug {
 }
 
 impl Observed for Vec<f32> {
-    fn fault(&self, space: &Space) -> Option<&'static str> {
+    fn flaw(&self, space: &Space) -> Option<Flaw> {
         if self.len() != space.len() {
-            return Some("wrong length");
+            return Some(Flaw::Shape { found: components(self.len()), expected: shape(space) });
         }
-        self.iter().any(|x| !x.is_finite()).then_some("not finite")
+        let index = self.iter().position(|x| !x.is_finite())?;
+        let name = space.dimensions().get(index).map(|dimension| dimension.name.clone()).unwrap_or_default();
+        Some(Flaw::NotFinite { index, name, value: self[index] })
     }
 
     fn used() -> Vec<Self> {
@@ -32,10 +47,10 @@ impl Observed for Vec<f32> {
 }
 
 impl Observed for Frame {
-    fn fault(&self, space: &Space) -> Option<&'static str> {
+    fn flaw(&self, space: &Space) -> Option<Flaw> {
         let [width, height] = self.size();
         let own = Space::Frame { width, height, channels: self.channels() };
-        (own != *space).then_some("wrong width, height or channels")
+        (own != *space).then(|| Flaw::Shape { found: shape(&own), expected: shape(space) })
     }
 
     fn used() -> Vec<Self> {
@@ -54,8 +69,8 @@ impl Observed for Frame {
 }
 
 impl<O: Observed> Observed for Annotated<O> {
-    fn fault(&self, space: &Space) -> Option<&'static str> {
-        self.seen.fault(space)
+    fn flaw(&self, space: &Space) -> Option<Flaw> {
+        self.seen.flaw(space)
     }
 
     fn used() -> Vec<Self> {
