@@ -27,10 +27,13 @@ impl Run {
             .map_err(|why| RunError::Foreign { file: file.clone(), why: why.to_string() })?;
         let logged = self.folder.read_metrics()?;
         let (saved, _) = self.session.progress();
-        for line in logged.iter().take(episodes as usize).skip(saved as usize) {
-            let again = self.session.train().ok();
-            if again.as_ref().map(text) != Some(text(line)) {
-                return Err(RunError::Unlike { episode: line.episode, file });
+        let unlike = |episode| RunError::Unlike { episode, file: file.clone() };
+        while self.session.progress().0 < episodes {
+            let (next, _) = self.session.progress();
+            for again in self.session.train().map_err(|_| unlike(next))? {
+                if logged.get(again.episode as usize).map(text) != Some(text(&again)) {
+                    return Err(unlike(again.episode));
+                }
             }
         }
         if saved < episodes {

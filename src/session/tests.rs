@@ -137,7 +137,7 @@ fn ill(what: What) -> (Box<dyn Session>, Stopped) {
     };
     let env = TimeLimit::new(Ill { spec, at: 0.0, steps: 0, what }, 20);
     let mut session =
-        super::discrete(Box::new(env), &Config::defaults("q-learning", "ill").unwrap()).unwrap();
+        super::discrete(vec![Box::new(env)], &Config::defaults("q-learning", "ill").unwrap()).unwrap();
     let stopped = session.train().unwrap_err();
     (session, stopped)
 }

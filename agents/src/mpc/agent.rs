@@ -209,6 +209,7 @@ impl Actor<Vec<f32>, Vec<f32>> for Mpc {
         if since.is_some_and(|since| since.is_multiple_of(self.config.refit)) {
             let epochs = if self.fits == 0 { self.config.first_epochs } else { self.config.epochs };
             self.last = self.dynamics.fit(&self.experience, epochs, &mut ctx.learning);
+            ctx.check("loss of the model", self.last.loss);
             self.fits += 1;
         }
     }

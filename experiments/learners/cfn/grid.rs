@@ -105,7 +105,7 @@ pub(super) struct Found {
 }
 
 fn torso() -> TorsoConfig {
-    TorsoConfig { embedding: 16, merges: vec![], hidden: vec![64] }
+    TorsoConfig { embedding: 16, merges: vec![], hidden: vec![64], ..TorsoConfig::default() }
 }
 
 fn novelty(agent: &Agent, encoder: &Arc<Patches>, seed: Seed) -> Option<Box<dyn Novelty<Frame>>> {

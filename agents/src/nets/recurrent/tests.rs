@@ -10,7 +10,7 @@ const SIZES: [usize; 4] = [3, 3, 1, 1];
 const STEPS: usize = 8;
 
 fn net() -> RecurrentNet {
-    let torso = TorsoConfig { embedding: 5, merges: vec![4], hidden: vec![7, 6] };
+    let torso = TorsoConfig { embedding: 5, merges: vec![4], hidden: vec![7, 6], ..Default::default() };
     let seen = Shape::Grid { down: 2, across: 3, width: 4 };
     let shape = RecurrentShape { seen, torso: &torso, memory: MEMORY, goal: 2, hidden: 9, choices: CHOICES };
     let mut net = RecurrentNet::new(shape, Backend::of_tests(), &mut Seed(1).stream("weights", 0));

@@ -90,8 +90,8 @@ fn the_mean_of_coins_squares_to_one_over_n() {
 #[test]
 fn it_learns_one_over_the_root_of_n() {
     let (mut cfn, all) = visited(&config(), 64, 0);
-    let mut rng = Seed(0).stream("learn", 1);
-    (0..1000).for_each(|_| cfn.learn(&all, &mut rng));
+    let mut ctx = Context::training(Seed(0), 1);
+    (0..1000).for_each(|_| cfn.learn(&all, &mut ctx));
     let truth: Vec<f32> = (0..64).map(|state| (visits(state) as f32).sqrt().recip()).collect();
     let found = bonuses(&cfn, 0..64);
     let correlation = correlation(&found, &truth);
@@ -103,10 +103,10 @@ fn it_learns_one_over_the_root_of_n() {
 #[test]
 fn flipping_coins_again_when_they_are_drawn_makes_everything_known() {
     let (mut cfn, all) = visited(&config(), 64, 0);
-    let mut rng = Seed(0).stream("learn", 1);
+    let mut ctx = Context::training(Seed(0), 1);
     for _ in 0..1000 {
-        cfn.visits.flip_again(&mut rng);
-        cfn.learn(&all, &mut rng);
+        cfn.visits.flip_again(&mut ctx.learning);
+        cfn.learn(&all, &mut ctx);
     }
     let found = mean(&bonuses(&cfn, 0..64));
     // What is left is the noise of the last steps.
@@ -218,7 +218,7 @@ fn frames_that_were_often_seen_become_known() {
         frame
     };
     let patches = Patches::new(&Space::Frame { width: 8, height: 8, channels: 1 }, 4).unwrap();
-    let torso = TorsoConfig { embedding: 8, merges: vec![16], hidden: vec![32] };
+    let torso = TorsoConfig { embedding: 8, merges: vec![16], hidden: vec![32], ..Default::default() };
     let config = CfnConfig { torso, warm_up: 50, batch: 32, rate: 3e-3, ..CfnConfig::default() };
     let mut cfn =
         Cfn::new(Arc::new(patches), &config, Backend::of_tests(), &mut Seed(0).stream("weights", 0));
