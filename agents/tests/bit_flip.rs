@@ -5,7 +5,7 @@
 use inroads_agents::{
     Agent, Aimed, Bag, Checkpoint, Clip, Context, Corrupt, Encode, Goal, Key, Learned, Learner, Memory, Pace,
     Practice, Replay, TabularQ,
-    dqn::{DqnConfig, GrowingDqn, Loss, Sample},
+    dqn::{GrowingConfig, GrowingDqn, Loss, Sample},
     draw::argmax,
     episode,
     hindsight::{HindsightConfig, Strategy},
@@ -149,13 +149,13 @@ impl Checkpoint for Dqn {
 }
 
 fn dqn(n: usize) -> Dqn {
-    let config = DqnConfig {
+    let config = GrowingConfig {
         hidden: vec![64],
         rate: 1e-3,
         tau: 0.02,
         batch: 64,
         loss: Loss::Huber,
-        ..DqnConfig::default()
+        ..GrowingConfig::default()
     };
     Dqn(GrowingDqn::new(2 * n, n, &config, Backend::default(), &mut Seed(0).stream("weights", 0)))
 }
