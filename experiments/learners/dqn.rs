@@ -34,7 +34,7 @@ const LAST: u64 = 100;
 const SOLVED: f64 = 0.95;
 
 /// Worlds and their steps of training.
-const WORLDS: [(&str, u64); 2] = [("door-key-5x5", 100_000), ("taxi", 100_000)];
+const WORLDS: [(&str, u64); 2] = [("door-key-5x5", 100_000), ("taxi", 150_000)];
 
 const PLAIN: &[&str] = &["learner.double=false", "learner.dueling=false", "replay.prioritised=false"];
 /// Taxi's returns: 20 at most, −1 for ever is −20, and each of what is not allowed costs 10 more.

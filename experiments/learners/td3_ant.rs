@@ -95,7 +95,7 @@ pub(crate) fn run(options: &Options) -> Done {
     for (name, Scores { returned, forward, length, effort }) in [("random", &random), ("TD3", &learned)] {
         println!("{name:<7} return {returned:.1}, {forward:.2} m, {length:.0} steps, effort {effort:.1}");
     }
-    write(options, "td3_ant", &Result { agent: AGENT, set: SET, steps: STEPS, random, learned, trials })
+    write(options, "td3-ant", &Result { agent: AGENT, set: SET, steps: STEPS, random, learned, trials })
 }
 
 type Env = TimeLimit<AntRun>;

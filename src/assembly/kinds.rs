@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn pictures_are_read_as_patches_whole() {
-        let options = Options { see: Some("pixels".parse().unwrap()), ..Options::default() };
+        let options = Options { see: Some("rgb".parse().unwrap()), ..Options::default() };
         let AnyEnvironment::Frames(env) = registry::make_with("empty-5x5", &options).unwrap() else {
             panic!("it is seen otherwise")
         };

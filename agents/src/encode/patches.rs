@@ -28,7 +28,7 @@ pub struct Patches {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PatchError {
     /// What is seen is no picture.
-    #[error("what is seen are no pictures; see the world as pixels (`--see pixels`)")]
+    #[error("what is seen are no pictures; see the world as pixels (`--see rgb`)")]
     NoPicture,
     /// The picture's sides are no multiples of the patch's.
     #[error(
