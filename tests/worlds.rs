@@ -101,7 +101,7 @@ fn worlds_are_drawn_so_wide_as_is_asked_and_seen_as_is_asked() {
     assert_eq!(fs::read(&out).unwrap()[6..10], [168, 0, 168, 0]);
     let text = fail(&mut inroads(&["render", "sokoban", "--see", "rgb:0"]));
     assert!(text.contains("0 by 0") && text.contains("between 1 and 4096"), "{text}");
-    let text = fail(&mut inroads(&["train", "q-learning", "sokoban", "--see", "rgb:84"]));
+    let text = fail(&mut inroads(&["train", "im-dsg", "sokoban", "--see", "rgb:84"]));
     assert!(text.contains("--see symbols"), "{text}");
     let text = fail(&mut inroads(&["play", "sokoban", "--layout", "fixed"]));
     assert!(text.contains("`fixed`") && text.contains("fixed:SEED"), "{text}");

@@ -77,7 +77,7 @@ impl<O: Clone, A: Clone, G: Goal<O>, L: Learner<O, A, G>> Actor<O, A> for Aimed<
 
     fn act(&mut self, s: &O, ctx: &mut Context) -> A {
         let number = self.experience.latest();
-        if self.practice.replay().begins_at(self.experience.length(number)) {
+        if self.practice.replay().notes_at(self.experience.length(number)) {
             self.experience.note(number, &self.memory);
         }
         self.learner.act(&mut self.memory, s, Some(&self.goal), ctx)

@@ -98,8 +98,8 @@ impl<O, L> Curious<O, L> {
 
     /// Whether somebody who acts must now note what it remembers ([`Experience::note`]), before it sees observation
     /// number `step` of an episode.
-    pub fn begins_at(&self, step: u32) -> bool {
-        self.practice.replay().begins_at(step)
+    pub fn notes_at(&self, step: u32) -> bool {
+        self.practice.replay().notes_at(step)
     }
 
     /// The newest step of an episode is a lesson, and perhaps time to learn.
@@ -116,7 +116,7 @@ impl<O, L> Curious<O, L> {
             novelty.visit((number, steps), all, ctx);
             self.bonuses.push(novelty.bonus(&episode.observations[steps as usize]));
         }
-        if self.begins_at(last) {
+        if self.practice.replay().begins_at(last) {
             self.practice.push(Lesson::task(number, last));
         }
         let Self { learner, sober, novelty, weight, centred, bonuses, practice } = self;

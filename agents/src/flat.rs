@@ -32,7 +32,7 @@ impl<O: Clone, A: Clone, L: Learner<O, A, ()>> Crowd<O, A> for Flat<O, A, L> {
 
     fn act_lanes(&mut self, running: &[usize], s: &[O], ctxs: &mut [Context], actions: &mut Vec<A>) {
         for (number, memory) in running.iter().map(|&lane| &self.lanes[lane]) {
-            if self.curious.begins_at(self.experience.length(*number)) {
+            if self.curious.notes_at(self.experience.length(*number)) {
                 self.experience.note(*number, memory);
             }
         }

@@ -149,16 +149,17 @@ impl TabularQ {
     /// The return of a clip, as far as its actions look best, and what is expected from there on.
     fn target<O: Key, G>(&self, clip: &Clip<O, usize, G>, goal: Option<u128>) -> f32 {
         let (mut sum, mut discount) = (0.0, 1.0);
-        for i in 0..clip.actions.len() {
+        let (states, actions) = (&clip.observations[clip.lead..], &clip.actions[clip.lead..]);
+        for i in 0..clip.len() {
             sum += discount * clip.reward(i);
             discount *= self.config.discount;
-            let last = i + 1 == clip.actions.len();
+            let last = i + 1 == clip.len();
             if last && clip.terminal {
                 break;
             }
-            let row = self.values.get(&(goal, clip.observations[i + 1].key())).unwrap_or(&self.blank);
+            let row = self.values.get(&(goal, states[i + 1].key())).unwrap_or(&self.blank);
             let best = greatest(row);
-            if last || row[clip.actions[i + 1]] < best {
+            if last || row[actions[i + 1]] < best {
                 return sum + discount * best;
             }
         }
@@ -185,8 +186,8 @@ impl<O: Key, G: Key> Learner<O, usize, G> for TabularQ {
         for clip in clips {
             let goal = clip.goal.map(Key::key);
             let target = self.target(clip, goal);
-            let row = self.values.entry((goal, clip.observations[0].key()));
-            let value = &mut row.or_insert_with(|| self.blank.clone())[clip.actions[0]];
+            let row = self.values.entry((goal, clip.first().key()));
+            let value = &mut row.or_insert_with(|| self.blank.clone())[clip.actions[clip.lead]];
             errors.push(target - *value);
             *value += self.config.rate * clip.weight * (target - *value);
         }

@@ -42,7 +42,7 @@ struct FlatR2d2Config {
 
 impl Default for FlatR2d2Config {
     /// An update every 8 steps, for one of 32 sequences of 40 steps learns from each step 160 times as it is. Priorities as
-    /// in the paper (Kapturowski 2019, section 2.3).
+    /// in the paper (Kapturowski 2019, section 2.3), but that their correction becomes whole, as in Schaul's.
     fn default() -> Self {
         let memory = MemoryConfig { capacity: 200_000, updates_per_step: 0.125, warm_up: 2000 };
         let priorities = PriorityConfig { exponent: 0.9, correction: 0.6, ..PriorityConfig::default() };

@@ -86,6 +86,15 @@ pub(super) fn list(folder: &Path) -> Result<Vec<PathBuf>, RunError> {
     Ok(files)
 }
 
+/// Removes the checkpoints that were written after so many episodes: a run that goes on from there has none of them.
+pub(super) fn remove_after(folder: &Path, episodes: u64) -> Result<(), RunError> {
+    let written = |path: &Path| path.file_stem()?.to_str()?.parse::<u64>().ok();
+    for file in list(folder)?.iter().filter(|file| written(file).is_some_and(|after| after > episodes)) {
+        fs::remove_file(file).map_err(RunError::io("remove", file))?;
+    }
+    Ok(())
+}
+
 /// Reads a checkpoint; what is wrong with it otherwise.
 pub(super) fn read(path: &Path) -> Result<Bag, String> {
     let bytes = fs::read(path).map_err(|e| e.to_string())?;

@@ -58,13 +58,15 @@ impl Run {
     }
 
     /// Takes a run up where its newest checkpoint left it, or the named one. Lines that were written after that
-    /// checkpoint are dropped: the same episodes will write them again.
+    /// checkpoint are dropped, and newer checkpoints: the same episodes will write them again.
     ///
     /// # Errors
     /// [`RunError`] names what is missing or corrupt, and which checkpoint is intact.
     pub fn resume(path: &Path, checkpoint: Option<&Path>) -> Result<Self, RunError> {
         let run = Self::open(path, checkpoint)?;
-        run.folder.rewind(run.session.progress().0)?;
+        let (episodes, _) = run.session.progress();
+        run.folder.rewind(episodes)?;
+        checkpoint::remove_after(&run.folder.checkpoints(), episodes)?;
         Ok(run)
     }
 

@@ -121,8 +121,8 @@ fn mend(fault: &Fault) -> &'static str {
             "mend the environment: `envs::check::check` finds what is wrong with it"
         }
         Fault::Refused(Refused::NotFinite { .. }) | Fault::Learning { .. } => {
-            "training diverged: try smaller rates (`policy.rate`, `policy.actor_rate`, `policy.critic_rate`) or a bound of the \
-             gradient (`policy.gradient_clip`)"
+            "training diverged: try smaller rates of what learned it (settings that end in `rate`) or a bound of its gradient \
+             (`gradient_clip`)"
         }
         Fault::Refused(_) => "agent and environment disagree on what can be done",
     }
@@ -331,6 +331,10 @@ fn pair<O: Seen + 'static, A: Clone + Into<Action> + 'static>(
             names(|entry| of(entry).is_some())
         )));
     };
+    if envs.len() as u64 != settings.lanes {
+        let why = format!("lanes is {}, and there are {} environments", settings.lanes, envs.len());
+        return Err(ConfigError::Impossible { table: "the run's settings".into(), why });
+    }
     let seed = Seed(settings.seed);
     let mut agent = build(envs[0].spec(), &config.agent, settings.backend, seed)?;
     if settings.lanes > 1 && agent.crowd().is_none() {
@@ -344,10 +348,6 @@ fn pair<O: Seen + 'static, A: Clone + Into<Action> + 'static>(
             settings.agent,
             able.map(|e| e.name).collect::<Vec<_>>().join(", ")
         );
-        return Err(ConfigError::Impossible { table: "the run's settings".into(), why });
-    }
-    if envs.len() as u64 != settings.lanes {
-        let why = format!("lanes is {}, and there are {} environments", settings.lanes, envs.len());
         return Err(ConfigError::Impossible { table: "the run's settings".into(), why });
     }
     Ok(Box::new(Pair::new(envs, agent, seed)))

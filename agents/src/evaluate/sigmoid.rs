@@ -126,11 +126,11 @@ impl<O, A, G: Encode> Evaluator<O, A, G> for Sigmoid<O, A> {
         // the policy's own action is worth.
         let (mut learned, mut asked) = (Vec::new(), Vec::new());
         for clip in clips {
-            self.write(&clip.observations[0], clip.goal, Some(&clip.actions[0]), &mut learned);
+            self.write(clip.first(), clip.goal, Some(&clip.actions[clip.lead]), &mut learned);
             self.write(clip.last(), clip.goal, Some(&policy(clip.last(), ctx)), &mut asked);
         }
         for clip in clips {
-            let s = &clip.observations[0];
+            let s = clip.first();
             self.write(s, clip.goal, None, &mut learned);
             self.write(s, clip.goal, Some(&policy(s, ctx)), &mut asked);
         }

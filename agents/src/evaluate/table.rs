@@ -125,7 +125,7 @@ impl<O: Key, G: Key> Evaluator<O, usize, G> for Table {
                 true => discount * self.row(clip.last(), clip.goal).actions[policy(clip.last(), ctx)],
                 false => 0.0,
             };
-            let (s, action) = (&clip.observations[0], clip.actions[0]);
+            let (s, action) = (clip.first(), clip.actions[clip.lead]);
             let chosen = policy(s, ctx);
             let row = self.row_mut(s, clip.goal);
             loss += row.towards(action, (cumulant + follows).clamp(0.0, 1.0), rate).powi(2);

@@ -210,7 +210,8 @@ impl Actor<Vec<f32>, Vec<f32>> for Mpc {
             let epochs = if self.fits == 0 { self.config.first_epochs } else { self.config.epochs };
             self.last = self.dynamics.fit(&self.experience, epochs, &mut ctx.learning);
             ctx.check("loss of the model", self.last.loss);
-            self.fits += 1;
+            // Of held out episodes alone nothing is learned.
+            self.fits += u64::from(self.last.steps > 0);
         }
     }
 }

@@ -27,6 +27,8 @@ struct Cut {
     period: u32,
     /// Steps before, where there are any, that only bring a memory up to date.
     burn_in: u32,
+    /// Whether they go on from what whoever acted remembered.
+    remembered: bool,
 }
 
 impl Cut {
@@ -78,7 +80,7 @@ impl<G> Replay<G> {
             late: None,
             capacity: capacity as u64,
             pay: Pay::COST,
-            cut: Cut { span: 1, period: 1, burn_in: 0 },
+            cut: Cut { span: 1, period: 1, burn_in: 0, remembered: false },
             closing: false,
             priorities: None,
         }
@@ -102,16 +104,22 @@ impl<G> Replay<G> {
     /// The same with sequences for learners that remember: of up to `steps` steps, one beginning every `period` steps of
     /// an episode, led in by up to `burn_in` steps before (R2D2, Kapturowski 2019, section 2.3).
     ///
-    /// Who acts notes what it remembers wherever [`begins_at`](Self::begins_at) says, and a sequence starts from that; one
+    /// Who acts notes what it remembers wherever [`notes_at`](Self::notes_at) says, and a sequence starts from that; one
     /// that begins between two such steps is led in from the one before.
     pub fn sequences(self, steps: u32, period: u32, burn_in: u32) -> Self {
-        let cut = Cut { span: steps.max(1), period: period.max(1), burn_in };
+        let cut = Cut { span: steps.max(1), period: period.max(1), burn_in, remembered: true };
         Self { cut, ..self }
     }
 
     /// Whether clips begin at this step of an episode.
     pub fn begins_at(&self, step: u32) -> bool {
         step.is_multiple_of(self.cut.period)
+    }
+
+    /// Whether somebody who acts must note what it remembers before it sees this observation of an episode
+    /// ([`Experience::note`]): where a sequence begins.
+    pub fn notes_at(&self, step: u32) -> bool {
+        self.cut.remembered && self.begins_at(step)
     }
 
     /// The same where a lesson that ends without its subgoal ends for good: nothing follows. For probabilities of
@@ -255,7 +263,7 @@ impl<G> Replay<G> {
             (Aim::Task, None) => episode.actions.len() as u32,
             _ => lesson.steps.end,
         };
-        let end = over.min(step + self.cut.span);
+        let end = over.min(step.saturating_add(self.cut.span));
         let noted = self.cut.noted(step);
         let (begin, from, to) = (noted as usize, step as usize, end as usize);
         let terminated = to == episode.actions.len() && episode.end == Some(End::Terminated);
