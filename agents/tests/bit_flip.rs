@@ -117,9 +117,8 @@ impl Learner<Vec<f32>, usize, Like> for Dqn {
     }
 
     fn learn(&mut self, clips: &[Clip<Vec<f32>, usize, Like>], _: &mut Context) -> Learned {
-        let rows =
-            |state: fn(&Clip<Vec<f32>, usize, Like>) -> Vec<f32>| clips.iter().map(state).collect::<Vec<_>>();
-        let (before, after) = (rows(|c| row(c.first(), c.goal)), rows(|c| row(c.last(), c.goal)));
+        let before: Vec<_> = clips.iter().map(|clip| row(clip.first(), clip.goal)).collect();
+        let after: Vec<_> = clips.iter().map(|clip| row(clip.last(), clip.goal)).collect();
         let sample = |i: usize| Sample {
             before: &before[i],
             choice: clips[i].actions[0],
@@ -203,7 +202,6 @@ fn hindsight_flips_eight_bits() {
         let mut agent = agent(8, dqn(8), strategy);
         train(8, &mut agent, 0..1000);
         let solved = solved(8, &agent);
-        println!("{strategy:?}: {solved} of 200");
         assert!(solved >= 190, "{strategy:?}: {solved} of 200");
     }
 }
@@ -213,7 +211,6 @@ fn without_hindsight_fifteen_bits_are_too_many() {
     let mut agent = agent(15, dqn(15), Strategy::None);
     train(15, &mut agent, 0..1000);
     let solved = solved(15, &agent);
-    println!("plain: {solved} of 200");
     assert!(solved <= 4, "{solved} of 200");
 }
 

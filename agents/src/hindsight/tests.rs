@@ -25,6 +25,7 @@ fn goal(episode: u64, step: u32) -> Region {
     ground().ball(vec![episode as f32, step as f32], 0.1)
 }
 
+#[allow(clippy::ptr_arg)] // what is seen is a vector
 fn achieved_at(s: &Vec<f32>) -> Region {
     ground().ball(s.clone(), 0.1)
 }
