@@ -113,7 +113,7 @@ fn asked(mut config: Config, arguments: &Arguments) -> Result<Config, ConfigErro
 }
 
 fn assigned(config: Config, assignments: &[String]) -> Result<Config, ConfigError> {
-    assignments.iter().try_fold(config, |config, assignment| config.with_assignment(assignment))
+    config.with_assignments(assignments.iter().map(String::as_str))
 }
 
 /// A run goes on as it was begun: what is asked of it must not differ.
