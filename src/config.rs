@@ -206,6 +206,22 @@ impl Config {
         Ok(Self { settings, agent: (entry.defaults)() })
     }
 
+    /// The defaults with what is asked for in their place: `ask` puts it there. How the world is seen is among that, and some
+    /// defaults depend on it.
+    ///
+    /// # Errors
+    /// [`ConfigError`] names what there is not, or the key and the mend.
+    pub fn asked(
+        agent: &str,
+        environment: &str,
+        ask: impl Fn(Self) -> Result<Self, ConfigError>,
+    ) -> Result<Self, ConfigError> {
+        let defaults = Self::defaults(agent, environment)?;
+        let world = ask(defaults.clone())?.settings.world;
+        let Self { settings, agent } = defaults;
+        ask(Self { settings: Settings { world, ..settings }, agent }.fitted()?)
+    }
+
     /// The same with a memory that pictures fit in, where the environment, as it is set, is seen as pictures.
     ///
     /// # Errors
@@ -225,7 +241,7 @@ impl Config {
     /// # Errors
     /// [`ConfigError`] names the file, or the key and the mend.
     pub fn with_file(self, path: &Path) -> Result<Self, ConfigError> {
-        self.overlaid(&read(path)?)
+        self.with_table(&read(path)?)
     }
 
     /// The same with one value in the place of its own: `key=value`, the key dotted, the value TOML or a word.
@@ -245,7 +261,7 @@ impl Config {
             .rsplit('.')
             .fold(value, |value, part| Value::Table(Table::from_iter([(part.to_owned(), value)])));
         match over {
-            Value::Table(over) => self.overlaid(&over),
+            Value::Table(over) => self.with_table(&over),
             _ => Err(ConfigError::NoValue(assignment.to_owned())),
         }
     }
@@ -257,7 +273,7 @@ impl Config {
     pub fn read(path: &Path) -> Result<Self, ConfigError> {
         let table = read(path)?;
         let name = |key: &str| table.get(key).and_then(Value::as_str).unwrap_or_default();
-        Self::defaults(name("agent"), name("environment"))?.overlaid(&table)
+        Self::defaults(name("agent"), name("environment"))?.with_table(&table)
     }
 
     /// Every value, as TOML.
@@ -271,7 +287,11 @@ impl Config {
         table
     }
 
-    fn overlaid(self, over: &Table) -> Result<Self, ConfigError> {
+    /// The same with a table's values in the place of its own.
+    ///
+    /// # Errors
+    /// [`ConfigError`] names the key and the mend.
+    pub fn with_table(self, over: &Table) -> Result<Self, ConfigError> {
         let mut table = self.table();
         overlay(&mut table, over, "")?;
         let (settings, agent) =
