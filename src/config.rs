@@ -241,7 +241,7 @@ impl Config {
     /// # Errors
     /// [`ConfigError`] names the file, or the key and the mend.
     pub fn with_file(self, path: &Path) -> Result<Self, ConfigError> {
-        self.with_table(&read(path)?)
+        self.overlaid(&read(path)?)
     }
 
     /// The same with one value in the place of its own: `key=value`, the key dotted, the value TOML or a word.
@@ -261,7 +261,7 @@ impl Config {
             .rsplit('.')
             .fold(value, |value, part| Value::Table(Table::from_iter([(part.to_owned(), value)])));
         match over {
-            Value::Table(over) => self.with_table(&over),
+            Value::Table(over) => self.overlaid(&over),
             _ => Err(ConfigError::NoValue(assignment.to_owned())),
         }
     }
@@ -273,7 +273,7 @@ impl Config {
     pub fn read(path: &Path) -> Result<Self, ConfigError> {
         let table = read(path)?;
         let name = |key: &str| table.get(key).and_then(Value::as_str).unwrap_or_default();
-        Self::defaults(name("agent"), name("environment"))?.with_table(&table)
+        Self::defaults(name("agent"), name("environment"))?.overlaid(&table)
     }
 
     /// Every value, as TOML.
@@ -291,7 +291,7 @@ impl Config {
     ///
     /// # Errors
     /// [`ConfigError`] names the key and the mend.
-    pub fn with_table(self, over: &Table) -> Result<Self, ConfigError> {
+    pub fn overlaid(self, over: &Table) -> Result<Self, ConfigError> {
         let mut table = self.table();
         overlay(&mut table, over, "")?;
         let (settings, agent) =

@@ -50,8 +50,7 @@ pub(super) struct Arguments {
 
 pub(super) fn reproduce(arguments: &Arguments) -> Done {
     let file = evidence::find(&arguments.figure)?;
-    let wanted =
-        Wanted { seeds: arguments.seeds, scale: arguments.scale, runs: arguments.runs.clone() };
+    let wanted = Wanted { seeds: arguments.seeds, scale: arguments.scale, runs: arguments.runs.clone() };
     let plan = Plan::read(&file, &wanted)?;
     if arguments.dry_run {
         say!("figure {}: {}\n{}", plan.experiment.figure, plan.experiment.title, evidence::price(&plan));
@@ -59,7 +58,10 @@ pub(super) fn reproduce(arguments: &Arguments) -> Done {
     }
     let done = if arguments.draw { Ok(true) } else { work(&plan, arguments) };
     if let Ok(false) = done {
-        eprintln!("stopped and saved; the same command{} goes on", if arguments.fresh { " without --fresh" } else { "" });
+        eprintln!(
+            "stopped and saved; the same command{} goes on",
+            if arguments.fresh { " without --fresh" } else { "" }
+        );
         return Ok(());
     }
     if arguments.shard.is_none() && !matches!(done, Err(evidence::EvidenceError::Changed { .. })) {
@@ -103,7 +105,11 @@ fn tell(told: &Told<'_>, bar: Option<&Mutex<Option<Progress>>>) {
     let end = || bar(&|bar| bar.take().map_or((), Progress::finish));
     match told {
         Told::Begins(asked, episodes) => {
-            eprintln!("{}: {}", asked.name, if *episodes == 0 { "begins".into() } else { format!("goes on after {episodes} episodes") });
+            eprintln!(
+                "{}: {}",
+                asked.name,
+                if *episodes == 0 { "begins".into() } else { format!("goes on after {episodes} episodes") }
+            );
             bar(&|bar| *bar = Some(Progress::new(&asked.config.settings, *episodes)));
         }
         Told::Episode(_, metrics) => bar(&|bar| {

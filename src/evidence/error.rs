@@ -8,7 +8,9 @@ use crate::config::ConfigError;
 #[derive(Debug, thiserror::Error)]
 pub enum EvidenceError {
     /// There is no such figure.
-    #[error("there is no figure `{name}`: {path} is missing. There are: {others}. Or name a file that ends in .toml")]
+    #[error(
+        "there is no figure `{name}`: {path} is missing. There are: {others}. Or name a file that ends in .toml"
+    )]
     NoFigure {
         /// What was asked for.
         name: String,

@@ -103,7 +103,11 @@ fn records(plan: &Plan, done: &[Done]) -> Result<Vec<RunRecord>, RunError> {
             wall_seconds: record::short(summary.wall_seconds),
             commit: begun_by(run.folder.path()),
             value: plan.experiment.metric.of(&run.folder)?.map(record::short),
-            curves: run.curves.iter().map(|(quantity, points)| (*quantity, record::thinned(points))).collect(),
+            curves: run
+                .curves
+                .iter()
+                .map(|(quantity, points)| (*quantity, record::thinned(points)))
+                .collect(),
         })
     };
     done.iter().map(record).collect()
@@ -113,7 +117,8 @@ fn costs(plan: &Plan, runs: &[RunRecord]) -> Vec<ArmCost> {
     let cost = |(domain, arm): (usize, usize)| {
         let (domain, arm) = (&plan.experiment.domains[domain].name, &plan.experiment.arms[arm].name);
         let own = || runs.iter().filter(|run| run.domain == *domain && run.arm == *arm);
-        let (steps, seconds) = (own().map(|run| run.steps).sum(), own().map(|run| run.wall_seconds).sum::<f64>());
+        let (steps, seconds) =
+            (own().map(|run| run.steps).sum(), own().map(|run| run.wall_seconds).sum::<f64>());
         ArmCost {
             domain: domain.clone(),
             arm: arm.clone(),
@@ -143,12 +148,15 @@ fn curves(plan: &Plan, done: &[Done], (of, over, smoothing): (&[Quantity], Axis,
     };
     let mut panels = Vec::new();
     for (d, domain) in plan.experiment.domains.iter().enumerate() {
+        let own = || done.iter().filter(|run| run.domain == d);
+        let far = |run: &Done| of.iter().filter_map(|q| run.curves[q].last()).map(&x).fold(0.0, f64::max);
+        let end = own().map(far).fold(0.0, f64::max);
         for quantity in of {
             let line = |run: &Done| run.curves[quantity].iter().map(|p| (x(p), p.value)).collect();
             let series = plan.pairs().into_iter().filter(|(domain, _)| *domain == d).map(|(_, a)| Series {
                 label: plan.experiment.arms[a].label().to_owned(),
                 colour: a + 1,
-                runs: done.iter().filter(|run| (run.domain, run.arm) == (d, a)).map(line).collect(),
+                runs: own().filter(|run| run.arm == a).map(line).collect(),
             });
             let log = *quantity == Quantity::Chain;
             panels.push(Panel {
@@ -158,10 +166,17 @@ fn curves(plan: &Plan, done: &[Done], (of, over, smoothing): (&[Quantity], Axis,
                     Axis::Episodes => "training episodes".to_owned(),
                 },
                 y_label: quantity.label().to_owned(),
-                y_range: (quantity.is_share() && !log).then_some((0.0, 1.0)),
+                x_range: (end > 0.0).then_some((0.0, end)),
+                y_range: quantity
+                    .is_share()
+                    .then_some((if log { decade(own(), *quantity) } else { 0.0 }, 1.0)),
                 log,
                 // On an axis of logarithms a mean would be that of its largest seeds.
-                summary: if quantity.is_share() && !log { Summary::MeanAndInterval } else { Summary::MedianAndRange },
+                summary: if quantity.is_share() && !log {
+                    Summary::MeanAndInterval
+                } else {
+                    Summary::MedianAndRange
+                },
                 smoothing,
                 series: series.collect(),
                 ..Panel::default()
@@ -169,6 +184,13 @@ fn curves(plan: &Plan, done: &[Done], (of, over, smoothing): (&[Quantity], Axis,
         }
     }
     panels
+}
+
+/// The power of ten below all values above 0, for an axis of logarithms; at most a hundredth.
+fn decade<'a>(runs: impl Iterator<Item = &'a Done>, quantity: Quantity) -> f64 {
+    let values = runs.flat_map(|run| &run.curves[&quantity]).map(|point| point.value);
+    let least = values.filter(|value| *value > 0.0).fold(0.01, f64::min);
+    10f64.powf(least.log10().floor())
 }
 
 fn dots(plan: &Plan, done: &[Done], metric: Metric) -> Result<Vec<Dots>, RunError> {

@@ -284,7 +284,8 @@ impl Experiment {
     pub fn read(path: &Path) -> Result<Self, EvidenceError> {
         let wrong = |why: String| EvidenceError::File { path: path.to_owned(), why };
         let text = fs::read_to_string(path).map_err(|why| wrong(format!("cannot be read: {why}")))?;
-        let experiment: Self = toml::from_str(&text).map_err(|why| wrong(why.to_string().trim_end().into()))?;
+        let experiment: Self =
+            toml::from_str(&text).map_err(|why| wrong(why.to_string().trim_end().into()))?;
         experiment.check().map_err(wrong)?;
         Ok(experiment)
     }
@@ -350,8 +351,11 @@ impl Experiment {
             Price::ByDomain(by) => {
                 self.known(&[], &by.keys().cloned().collect::<Vec<_>>())?;
                 by.values().try_for_each(|ms| dear(*ms))?;
-                let lacking = self.domains.iter().find(|domain| arm.lives_in(domain) && !by.contains_key(&domain.name));
-                lacking.map_or(Ok(()), |domain| Err(format!("`ms_per_step` lacks domain `{}`; measure it", domain.name)))
+                let lacking =
+                    self.domains.iter().find(|domain| arm.lives_in(domain) && !by.contains_key(&domain.name));
+                lacking.map_or(Ok(()), |domain| {
+                    Err(format!("`ms_per_step` lacks domain `{}`; measure it", domain.name))
+                })
             }
         }
     }
@@ -385,7 +389,11 @@ impl Experiment {
         let parts = [&claim.better, &claim.worse, &claim.arm].iter().filter(|part| part.is_some()).count();
         let right = (compares && parts == 2 && claim.at_least.is_none() && claim.on_seeds.is_none())
             || (reaches && parts == 1 && claim.on_seeds.is_some_and(|seeds| seeds > 0));
-        if right { Ok(()) } else { Err("set `better` and `worse`, or `arm`, `at_least` and `on_seeds` above 0".into()) }
+        if right {
+            Ok(())
+        } else {
+            Err("set `better` and `worse`, or `arm`, `at_least` and `on_seeds` above 0".into())
+        }
     }
 
     /// Whether all arms and domains of these names are there.
@@ -413,8 +421,12 @@ impl Budget {
             Self { episodes: Some(0), .. } | Self { max_steps: Some(0), .. } => {
                 Err("a budget of 0 is none; leave the key out, or give a number above 0".into())
             }
-            Self { max_steps: Some(_), .. } | Self { episodes: Some(_), steps_an_episode: Some(_), .. } => Ok(()),
-            _ => Err("`budget` needs `max_steps`, or `episodes` with `steps_an_episode` for the price".into()),
+            Self { max_steps: Some(_), .. } | Self { episodes: Some(_), steps_an_episode: Some(_), .. } => {
+                Ok(())
+            }
+            _ => {
+                Err("`budget` needs `max_steps`, or `episodes` with `steps_an_episode` for the price".into())
+            }
         }
     }
 

@@ -132,7 +132,10 @@ fn trained(
 ) -> Result<Vec<Point>, RunError> {
     let metrics = folder.read_metrics()?;
     let point = |m: &_| value(m);
-    Ok(metrics.iter().map(|m| Point { episodes: m.episode + 1, steps: m.env_steps, value: point(m) }).collect())
+    Ok(metrics
+        .iter()
+        .map(|m| Point { episodes: m.episode + 1, steps: m.env_steps, value: point(m) })
+        .collect())
 }
 
 fn tested(folder: &Folder, value: impl Fn(&TestMetrics) -> Option<f64>) -> Result<Vec<Point>, RunError> {

@@ -118,7 +118,10 @@ fn sets(
                 let overlap = first.get(index).map(|other| 100.0 * overlap(other, region));
                 let overlap = overlap.map_or_else(String::new, |share| format!(", {share:.0} % in common"));
                 pictures.push(SetPicture {
-                    title: format!("{label}, seed {}: {} → {target}{given}", run.config.settings.seed, skill.skill),
+                    title: format!(
+                        "{label}, seed {}: {} → {target}{given}",
+                        run.config.settings.seed, skill.skill
+                    ),
                     subtitle: format!("covers {covers:.0} % of free space{overlap}"),
                     colour: skill.skill as usize,
                     region: region.clone(),
@@ -140,8 +143,10 @@ fn trajectories(path: &Path, chosen: &mut Chosen, episodes: u64) -> Result<Optio
     let paths = watched.iter().map(|episode| Trajectory {
         points: episode.acted().map(|(s, skill)| ([s[0], s[1]], skill)).collect(),
     });
-    let steps: Vec<_> = watched.iter().map(|episode| (episode.summary.steps, episode.summary.success)).collect();
-    let words = |(steps, success): &(u32, bool)| format!("{steps}{}", if *success { "" } else { " (failed)" });
+    let steps: Vec<_> =
+        watched.iter().map(|episode| (episode.summary.steps, episode.summary.success)).collect();
+    let words =
+        |(steps, success): &(u32, bool)| format!("{steps}{}", if *success { "" } else { " (failed)" });
     let told_steps = steps.iter().map(words).collect::<Vec<_>>().join(", ");
     let note = format!("{}. Steps: {told_steps}", note(std::slice::from_ref(chosen)));
     figures::trajectories(path, &view.map, &paths.collect::<Vec<_>>(), &note)?;
@@ -151,7 +156,8 @@ fn trajectories(path: &Path, chosen: &mut Chosen, episodes: u64) -> Result<Optio
 /// Of two sets: what both have, as a share of what either has.
 fn overlap(one: &Raster, other: &Raster) -> f64 {
     let cells = || one.inside.iter().zip(&other.inside);
-    let (both, either) = (cells().filter(|(a, b)| **a && **b).count(), cells().filter(|(a, b)| **a || **b).count());
+    let (both, either) =
+        (cells().filter(|(a, b)| **a && **b).count(), cells().filter(|(a, b)| **a || **b).count());
     both as f64 / either.max(1) as f64
 }
 

@@ -101,7 +101,8 @@ impl Plan {
             // What is computed with another budget never lies among what claims rest on.
             name += &format!("-x{scale}");
         }
-        let mut plan = Self { file: file.to_owned(), scale, folder: runs.join(name), runs: Vec::new(), experiment };
+        let mut plan =
+            Self { file: file.to_owned(), scale, folder: runs.join(name), runs: Vec::new(), experiment };
         for nth in 0..plan.experiment.seeds.min(seeds.unwrap_or(u64::MAX)) {
             let mut of_seed = plan.of_seed(nth)?;
             // Another one first each time: else a shard could get all runs of the dearest arm.
@@ -188,7 +189,7 @@ impl Plan {
             tables.chain(arms.iter().map(|arm| &arm.set)).chain(rules.map(|rule| &rule.set)).collect();
         let said = self.said(domain, seed);
         Config::asked(agent, &domain.environment, |config| {
-            tables.iter().copied().chain([&said]).try_fold(config, |config, table| config.with_table(table))
+            tables.iter().copied().chain([&said]).try_fold(config, |config, table| config.overlaid(table))
         })
     }
 

@@ -9,7 +9,8 @@ const HOUR: f64 = 3.6e6;
 /// The price, a line an arm in a domain, with what is done already, as a table; then the total and what is left. Nothing
 /// is written.
 pub fn price(plan: &Plan) -> String {
-    let head = ["domain", "arm", "seeds", "steps a run", "ms a step", "core-hours", "done", "measured ms a step"];
+    let head =
+        ["domain", "arm", "seeds", "steps a run", "ms a step", "core-hours", "done", "measured ms a step"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     let (mut all, mut left) = (0.0, 0.0);
     for (domain, arm) in plan.pairs() {
@@ -50,7 +51,9 @@ struct Line {
 impl Line {
     fn finish(&mut self, run: &std::path::Path) {
         self.finished += 1;
-        if let Ok(Summary { wall_seconds, env_steps, .. }) = Folder::open(run).and_then(|run| run.read_summary()) {
+        if let Ok(Summary { wall_seconds, env_steps, .. }) =
+            Folder::open(run).and_then(|run| run.read_summary())
+        {
             self.measured = (self.measured.0 + wall_seconds, self.measured.1 + env_steps);
         }
     }
@@ -63,8 +66,14 @@ impl Line {
             }
         }
         let (seconds, steps) = self.measured;
-        let measured = if steps > 0 { format!("{:.3}", 1e3 * seconds / steps as f64) } else { "-".to_owned() };
-        let numbers = [self.seeds.to_string(), self.steps.to_string(), format!("{}", self.ms), format!("{:.3}", self.hours)];
+        let measured =
+            if steps > 0 { format!("{:.3}", 1e3 * seconds / steps as f64) } else { "-".to_owned() };
+        let numbers = [
+            self.seeds.to_string(),
+            self.steps.to_string(),
+            format!("{}", self.ms),
+            format!("{:.3}", self.hours),
+        ];
         [vec![domain.to_owned(), arm.to_owned()], numbers.to_vec(), vec![done, measured]].concat()
     }
 }
@@ -73,7 +82,8 @@ impl Line {
 fn aligned(rows: &[Vec<String>]) -> String {
     let wide = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
     let line = |row: &Vec<String>| {
-        let cells = row.iter().enumerate().map(|(column, cell)| format!("{cell:<width$}", width = wide(column)));
+        let cells =
+            row.iter().enumerate().map(|(column, cell)| format!("{cell:<width$}", width = wide(column)));
         cells.collect::<Vec<_>>().join("  ").trim_end().to_owned()
     };
     rows.iter().map(line).collect::<Vec<_>>().join("\n")

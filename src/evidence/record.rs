@@ -135,12 +135,24 @@ pub(super) fn short(x: f64) -> f64 {
 /// [`EvidenceError::NoClaims`] when there is no figure; [`RunError::Io`] when one cannot be read.
 pub fn claims(folder: &Path) -> Result<String, RunError> {
     let listed = fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut files: Vec<_> = listed.map(|entry| entry.path().join(FILE)).filter(|file| file.is_file()).collect();
+    let mut files: Vec<_> =
+        listed.map(|entry| entry.path().join(FILE)).filter(|file| file.is_file()).collect();
     files.sort();
     if files.is_empty() {
         return Err(EvidenceError::NoClaims(folder.to_owned()).into());
     }
-    let head = ["figure", "claim", "where", "verdict", "seeds", "interval", "steps", "core-hours", "command", "commit"];
+    let head = [
+        "figure",
+        "claim",
+        "where",
+        "verdict",
+        "seeds",
+        "interval",
+        "steps",
+        "core-hours",
+        "command",
+        "commit",
+    ];
     let mut rows = vec![row(&head.map(str::to_owned)), row(&head.map(|_| "---".to_owned()))];
     for file in files {
         let record = Record::read(&file)?;

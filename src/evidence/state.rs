@@ -27,8 +27,9 @@ impl State {
     /// Looks at a run's folder.
     pub fn of(asked: &Asked) -> Self {
         let Ok(folder) = Folder::open(&asked.path) else { return Self::Absent };
-        let has_checkpoint = std::fs::read_dir(folder.checkpoints())
-            .is_ok_and(|files| files.flatten().any(|file| file.path().extension().is_some_and(|e| e == "ckpt")));
+        let has_checkpoint = std::fs::read_dir(folder.checkpoints()).is_ok_and(|files| {
+            files.flatten().any(|file| file.path().extension().is_some_and(|e| e == "ckpt"))
+        });
         if !has_checkpoint {
             // Killed before its first one was whole.
             return Self::Absent;

@@ -161,7 +161,8 @@ pub(super) fn begun_by(run: &Path) -> String {
 fn commit() -> String {
     let said = std::env::var("INROADS_COMMIT").ok().filter(|said| !said.is_empty());
     let git = || {
-        let output = Command::new("git").args(["describe", "--always", "--dirty", "--exclude=*"]).output().ok()?;
+        let output =
+            Command::new("git").args(["describe", "--always", "--dirty", "--exclude=*"]).output().ok()?;
         let text = String::from_utf8(output.stdout).ok()?.trim().to_owned();
         (output.status.success() && !text.is_empty()).then_some(text)
     };

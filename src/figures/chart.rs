@@ -20,6 +20,8 @@ pub struct Panel {
     pub x_label: String,
     /// Stands left of the chart, reading upwards.
     pub y_label: String,
+    /// The ends of the x axis; without it, the smallest and largest place of all seeds, or 0 where that is near.
+    pub x_range: Option<(f64, f64)>,
     /// The ends of the y axis; without it, the smallest and largest value of all seeds.
     pub y_range: Option<(f64, f64)>,
     /// Whether the y axis is one of logarithms; what is not above 0 lies below it.
@@ -146,7 +148,9 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, area: Area) {
         .collect();
     let points = || drawn.iter().flat_map(|series| series.runs.iter().flatten());
     let empty = points().next().is_none();
-    let mut x_span = Span::of(points().map(|point| point.0)).unwrap_or(Span { low: 0.0, high: 1.0 });
+    let given = panel.x_range.and_then(|(low, high)| Span::of([low, high]));
+    let found = || Span::of(points().map(|point| point.0)).unwrap_or(Span { low: 0.0, high: 1.0 });
+    let mut x_span = given.unwrap_or_else(found);
     if x_span.low > 0.0 && x_span.low < 0.25 * x_span.high {
         x_span.low = 0.0;
     }

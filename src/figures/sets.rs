@@ -33,12 +33,7 @@ const GAP: f32 = 28.0;
 const HEAD: f32 = 54.0;
 
 /// Draws one panel a skill as one PNG, and a remark below. Without any skill it shows the bare map.
-pub fn sets(
-    path: impl AsRef<Path>,
-    map: &Map,
-    sets: &[SetPicture],
-    note: &str,
-) -> Result<(), FigureError> {
+pub fn sets(path: impl AsRef<Path>, map: &Map, sets: &[SetPicture], note: &str) -> Result<(), FigureError> {
     let path = path.as_ref();
     map.check(path)?;
     for set in sets {

@@ -45,7 +45,8 @@ pub fn trajectories(
         1 => "and another skill".to_owned(),
         more => format!("and {more} more skills"),
     };
-    let note = [unnamed.as_str(), note].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ");
+    let note =
+        [unnamed.as_str(), note].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ");
 
     let tall = WIDTH * map.shape();
     let below = MARGIN + tall + 12.0;
