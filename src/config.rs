@@ -206,6 +206,22 @@ impl Config {
         Ok(Self { settings, agent: (entry.defaults)() })
     }
 
+    /// The defaults with what is asked for in their place: `ask` puts it there. How the world is seen is among that, and some
+    /// defaults depend on it.
+    ///
+    /// # Errors
+    /// [`ConfigError`] names what there is not, or the key and the mend.
+    pub fn asked(
+        agent: &str,
+        environment: &str,
+        ask: impl Fn(Self) -> Result<Self, ConfigError>,
+    ) -> Result<Self, ConfigError> {
+        let defaults = Self::defaults(agent, environment)?;
+        let world = ask(defaults.clone())?.settings.world;
+        let Self { settings, agent } = defaults;
+        ask(Self { settings: Settings { world, ..settings }, agent }.fitted()?)
+    }
+
     /// The same with a memory that pictures fit in, where the environment, as it is set, is seen as pictures.
     ///
     /// # Errors
@@ -272,7 +288,11 @@ impl Config {
         table
     }
 
-    fn overlaid(self, over: &Table) -> Result<Self, ConfigError> {
+    /// The same with a table's values in the place of its own.
+    ///
+    /// # Errors
+    /// [`ConfigError`] names the key and the mend.
+    pub fn overlaid(self, over: &Table) -> Result<Self, ConfigError> {
         let mut table = self.table();
         overlay(&mut table, over, "")?;
         self.put(table)

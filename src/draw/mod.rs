@@ -55,12 +55,19 @@ impl View {
         Some(Self { picture, map })
     }
 
-    /// The initiation set of each skill of a run.
+    /// The initiation set of each skill of a run, the robot at rest.
     pub fn sets(&self, run: &Run) -> Vec<Raster> {
+        self.sets_where(run, |_| ())
+    }
+
+    /// The same with other features of what is seen changed, such as a key that it carries.
+    pub fn sets_where(&self, run: &Run, change: impl Fn(&mut [f32])) -> Vec<Raster> {
         let skills = run.session.skills().len();
         let mut rasters = vec![Raster { nx: RASTER, ny: RASTER, inside: Vec::new() }; skills];
         Raster::of(&self.map, RASTER, RASTER, |at| {
-            let members = run.session.members(&self.picture.observation_at(at.map(f64::from)));
+            let mut seen = self.picture.observation_at(at.map(f64::from));
+            change(&mut seen);
+            let members = run.session.members(&seen);
             for (raster, member) in rasters.iter_mut().zip(members) {
                 raster.inside.push(member);
             }
@@ -105,14 +112,14 @@ pub fn figures(run: &mut Run, frozen: &[Watched]) -> Result<(), RunError> {
                 ..SetPicture::default()
             })
             .collect();
-        figures::sets(folder.join("initiation-sets.png"), &view.map, &pictures)?;
+        figures::sets(folder.join("initiation-sets.png"), &view.map, &pictures, "")?;
     }
     let trajectories: Vec<_> = frozen
         .iter()
         .take(TRAJECTORIES)
         .map(|w| Trajectory { points: w.acted().map(|(s, skill)| ([s[0], s[1]], skill)).collect() })
         .collect();
-    figures::trajectories(folder.join("trajectories.png"), &view.map, &trajectories)?;
+    figures::trajectories(folder.join("trajectories.png"), &view.map, &trajectories, "")?;
     Ok(())
 }
 
@@ -148,7 +155,7 @@ pub fn curves(runs: &[Run], path: &Path) -> Result<(), RunError> {
         summary,
         smoothing: SMOOTHING,
         series,
-        levels: Vec::new(),
+        ..Panel::default()
     };
     let environment = runs.first().map_or("", |run| run.config.settings.environment.as_str());
     figures::curves(
