@@ -20,6 +20,7 @@ mod pursuit;
 mod repertoire;
 mod skill;
 mod skilled;
+mod trial;
 
 pub use aim::{Aim, Sets, States};
 pub use config::{ChainAt, ChainConfig, Lessons, OptionReward, Subgoals};
