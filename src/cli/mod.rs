@@ -10,7 +10,9 @@ mod plot;
 mod progress;
 mod render;
 mod say;
+mod table;
 mod train;
+mod truth;
 mod world;
 
 use std::{path::PathBuf, process::ExitCode};
@@ -67,6 +69,8 @@ enum Command {
     Render(render::Arguments),
     /// Play in the terminal
     Play(play::Arguments),
+    /// Call each skill of a run from everywhere: where it succeeds, beside where its initiation set says that it may start
+    Truth(truth::Arguments),
     /// Find an environment's shortest solution, and how often random actions succeed
     Certify(certify::Arguments),
 }
@@ -97,6 +101,7 @@ pub fn main() -> ExitCode {
         Command::Plot { runs, out } => plot::plot(&runs, &out),
         Command::Render(arguments) => render::render(&arguments),
         Command::Play(arguments) => play::play(&arguments),
+        Command::Truth(arguments) => truth::truth(&arguments),
         Command::Certify(arguments) => certify::certify(&arguments),
     };
     match done {
