@@ -17,7 +17,8 @@ const EDGE: f32 = 0.5;
 /// The session of the agent in its corridor.
 pub(crate) fn session() -> Box<dyn Session> {
     let env = TimeLimit::new(Corridor::named("corridor-5", CELLS as usize), 50);
-    Box::new(Pair::new(vec![Box::new(env)], Box::new(Walker { visits: vec![0; CELLS as usize] }), Seed(0)))
+    let walker = Box::new(Walker { visits: vec![0; CELLS as usize] });
+    Box::new(Pair::new(vec![Box::new(env)], None, walker, Seed(0)))
 }
 
 /// The session of an agent of a test's own.
@@ -25,7 +26,7 @@ pub(crate) fn of(
     env: BoxedEnvironment<Vector, Vector>,
     agent: BoxedAgent<Vector, Vector>,
 ) -> Box<dyn Session> {
-    Box::new(Pair::new(vec![env], agent, Seed(0)))
+    Box::new(Pair::new(vec![env], None, agent, Seed(0)))
 }
 
 struct Walker {
