@@ -98,7 +98,7 @@ pub fn beliefs(path: impl AsRef<Path>, map: &Map, beliefs: &[Belief]) -> Result<
                     canvas.areas([whole(view.area(patch.rect))], shade);
                 }
             });
-            belief.may_start.outline(canvas, view, shade);
+            belief.may_start.outline(canvas, view, INK);
         });
     }
     heat::bar(&mut canvas, (width - heat::BAR) / 2.0, below);
@@ -129,11 +129,10 @@ fn whole(area: Area) -> Area {
 /// Only what the picture shows.
 fn entries(map: &Map, beliefs: &[Belief]) -> Vec<Entry> {
     let shades = [0, 1, 2].map(|index| colour(beliefs[index * beliefs.len() / 3].colour));
-    let mut entries = vec![Entry::new(Mark::Inside(shades), "left: may start; its outline on the right")];
+    let mut entries = vec![Entry::new(Mark::Inside(shades), "left: may start (outlined on the right)")];
     if beliefs.iter().any(|belief| !belief.may_aim.inside.is_empty()) {
-        entries.push(Entry::new(Mark::Line(INK), "may be aimed at"));
+        entries.push(Entry::new(Mark::Line(INK), "left: may be aimed at"));
     }
-    entries.push(Entry::new(Mark::Outside, "right: not tried"));
     if beliefs.iter().flat_map(|belief| &belief.patches).any(|patch| patch.success.is_none()) {
         entries.push(Entry::new(Mark::Region, "its subgoal holds already"));
     }

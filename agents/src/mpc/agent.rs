@@ -98,7 +98,8 @@ impl MpcConfig {
         Ok(())
     }
 
-    fn planner(&self) -> &dyn Planner {
+    /// Who plans by these settings.
+    pub fn planner(&self) -> &dyn Planner {
         match self.planner {
             PlannerKind::Refining => &self.refining,
             PlannerKind::Shooting => &self.shooting,
