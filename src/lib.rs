@@ -25,3 +25,4 @@ pub mod prelude;
 pub mod run;
 pub mod session;
 pub mod statistics;
+pub mod truth;

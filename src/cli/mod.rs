@@ -12,7 +12,9 @@ mod progress;
 mod render;
 mod reproduce;
 mod say;
+mod table;
 mod train;
+mod truth;
 mod world;
 
 use std::{path::PathBuf, process::ExitCode};
@@ -77,6 +79,8 @@ enum Command {
         #[arg(long, default_value = reproduce::RESULTS)]
         results: PathBuf,
     },
+    /// Call each skill of a run from everywhere: where it succeeds, beside where its initiation set says that it may start
+    Truth(truth::Arguments),
     /// Find an environment's shortest solution, and how often random actions succeed
     Certify(certify::Arguments),
 }
@@ -109,6 +113,7 @@ pub fn main() -> ExitCode {
         Command::Play(arguments) => play::play(&arguments),
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
         Command::Claims { results } => claims::claims(&results),
+        Command::Truth(arguments) => truth::truth(&arguments),
         Command::Certify(arguments) => certify::certify(&arguments),
     };
     match done {

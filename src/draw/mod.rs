@@ -2,12 +2,15 @@
 
 mod goals;
 mod graph;
+mod truth;
 
 pub use goals::Questions;
 pub use graph::{differ, feature_name, tried, whereabouts};
+pub use truth::truth;
 
 use std::path::Path;
 
+use inroads_discovery::SkillRecord;
 use inroads_envs::{maze::Picture, registry};
 
 use crate::{
@@ -55,25 +58,43 @@ impl View {
         Some(Self { picture, map })
     }
 
-    /// The initiation set of each skill of a run, the robot at rest.
+    /// The initiation set of each skill of a run, the robot at rest: where it may start.
     pub fn sets(&self, run: &Run) -> Vec<Raster> {
-        self.sets_where(run, |_| ())
+        self.rasters(run, |seen| run.session.members(seen))
     }
 
     /// The same with other features of what is seen changed, such as a key that it carries.
     pub fn sets_where(&self, run: &Run, change: impl Fn(&mut [f32])) -> Vec<Raster> {
+        self.rasters(run, |seen| {
+            let mut seen = seen.clone();
+            change(&mut seen);
+            run.session.members(&seen)
+        })
+    }
+
+    /// Where other skills may aim in order to enter the set of each skill of a run.
+    pub fn targets(&self, run: &Run) -> Vec<Raster> {
+        self.rasters(run, |seen| run.session.targets(seen))
+    }
+
+    /// What is said of all skills, everywhere.
+    fn rasters(&self, run: &Run, ask: impl Fn(&Vec<f32>) -> Vec<bool>) -> Vec<Raster> {
         let skills = run.session.skills().len();
         let mut rasters = vec![Raster { nx: RASTER, ny: RASTER, inside: Vec::new() }; skills];
         Raster::of(&self.map, RASTER, RASTER, |at| {
-            let mut seen = self.picture.observation_at(at.map(f64::from));
-            change(&mut seen);
-            let members = run.session.members(&seen);
-            for (raster, member) in rasters.iter_mut().zip(members) {
+            let said = ask(&self.picture.observation_at(at.map(f64::from)));
+            for (raster, member) in rasters.iter_mut().zip(said) {
                 raster.inside.push(member);
             }
             false
         });
         rasters
+    }
+
+    /// The least rectangle that holds all free space.
+    pub fn free(&self) -> Rect {
+        let Rect { min, max } = self.map.bounds;
+        Rect { min: min.map(|x| x + BORDER), max: max.map(|x| x - BORDER) }
     }
 }
 
@@ -99,10 +120,7 @@ pub fn figures(run: &mut Run, frozen: &[Watched]) -> Result<(), RunError> {
         let pictures: Vec<_> = most
             .into_iter()
             .map(|(skill, region)| SetPicture {
-                title: match skill.enters {
-                    None => format!("skill {} → reaches the goal", skill.skill),
-                    Some(parent) => format!("skill {} → enters skill {parent}", skill.skill),
-                },
+                title: title(skill),
                 subtitle: format!(
                     "covers {:.0} % of free space",
                     100.0 * region.share_of_free_space(&view.map)
@@ -121,6 +139,14 @@ pub fn figures(run: &mut Run, frozen: &[Watched]) -> Result<(), RunError> {
         .collect();
     figures::trajectories(folder.join("trajectories.png"), &view.map, &trajectories, "")?;
     Ok(())
+}
+
+/// What stands above the picture of a skill.
+fn title(skill: &SkillRecord) -> String {
+    match skill.enters {
+        None => format!("skill {} → reaches the goal", skill.skill),
+        Some(parent) => format!("skill {} → enters skill {parent}", skill.skill),
+    }
 }
 
 /// Draws the learning curves of runs, those of one agent together.

@@ -14,6 +14,7 @@
 //! | [`kept_features`] | PNG, a table of abstract subgoals and the features that they keep | section 9.2.3 |
 //! | [`reliability()`] | PNG, predicted against measured probabilities | |
 //! | [`movie()`] | GIF, the robot in its maze seen from above, coloured by the option that acts | |
+//! | [`beliefs`] | PNG, two panels a skill: its sets, and where it succeeds | figure 4.5 |
 //! | [`heat()`] | PNG, grids of cells: truth beside belief | |
 //! | [`film()`], [`still`] | GIF and PNG of frames that somebody else drew | |
 //!
@@ -29,6 +30,7 @@
 
 mod animation;
 mod axis;
+mod belief;
 mod canvas;
 mod caption;
 mod chart;
@@ -54,6 +56,7 @@ mod tests;
 mod text;
 mod trajectory;
 
+pub use belief::{Belief, Patch, beliefs};
 pub use chart::{Level, Panel, Series, Sheet, curves, curves_on};
 pub use dots::{Column, Dots, dots};
 pub use error::FigureError;

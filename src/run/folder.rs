@@ -89,6 +89,11 @@ impl Folder {
         self.path.join("figures")
     }
 
+    /// Where its skills succeed, beside where their sets say so; not there until somebody asks.
+    pub fn truth(&self) -> PathBuf {
+        self.path.join("truth.json")
+    }
+
     /// What the run came to.
     pub fn summary(&self) -> PathBuf {
         self.path.join("summary.json")

@@ -6,7 +6,7 @@ use inroads_envs::{Goal, Rng};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Dynamics, DynamicsConfig, Fit, PlannerKind, Problem, Reach, Refining, Reward, Shooting, View,
+    Dynamics, DynamicsConfig, Fit, Planner, PlannerKind, Problem, Reach, Refining, Reward, Shooting, View,
     steer::Steering,
 };
 use crate::{Actor, Agent, Context, Experience, Memory, Transition, checkpoint, nets::Backend};
@@ -86,6 +86,11 @@ impl MpcConfig {
         }
         Ok(())
     }
+
+    /// Who plans by these settings.
+    pub fn planner(&self) -> &dyn Planner {
+        self.planner.of(&self.refining, &self.shooting)
+    }
 }
 
 /// An agent that learns what its actions lead to, and plans.
@@ -146,7 +151,7 @@ impl Mpc {
         let config = &self.config;
         let objective = Reach { goal, reward: config.reward, values: None };
         let problem = Problem { model: &self.dynamics, objective: &objective, s };
-        let planner = config.planner.of(&config.refining, &config.shooting);
+        let planner = config.planner();
         let random = if self.fits == 0 { 1.0 } else { config.epsilon };
         Steering { planner, random, hold: config.hold }.act(&problem, memory, &mut ctx.acting)
     }

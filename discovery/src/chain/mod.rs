@@ -20,6 +20,7 @@ mod pursuit;
 mod repertoire;
 mod skill;
 mod skilled;
+mod trial;
 
 pub use aim::{Aim, Places, Sets, States};
 pub use config::{ChainAt, ChainConfig, Explore, Lessons, OptionReward, Subgoals};
