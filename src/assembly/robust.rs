@@ -10,7 +10,7 @@ use inroads_agents::{
 };
 use inroads_discovery::{
     ChainConfig, Chaining, Hierarchy, PerSkill, Shared,
-    chain::{ChainAt, Explore, Lessons, Places, Subgoals},
+    chain::{ChainAt, Explore, Lessons, OptionReward, Places, Subgoals},
     over_skills::Scan,
 };
 use inroads_envs::{Seed, Spec};
@@ -111,9 +111,13 @@ impl RobustConfig {
                         false, or chain.subgoals = \"sample\""
                 .into());
         }
-        if *model && plans.values && plans.reward == Reward::Dense {
-            return Err("plans.reward is \"dense\" and plans.values are those of sparse rewards; set plans.values = false, or \
-                        plans.reward = \"sparse\""
+        let same = match plans.reward {
+            Reward::Dense => OptionReward::Dense,
+            Reward::Sparse => OptionReward::Sparse,
+        };
+        if *model && plans.values && self.chain.option_reward != same {
+            return Err("plans.values are what chain.option_reward pays in the long run, and plans.reward is of the other kind; set \
+                        both to \"dense\" or both to \"sparse\", or plans.values = false"
                 .into());
         }
         Ok(())
