@@ -17,6 +17,7 @@ pub mod assembly;
 pub mod cli;
 pub mod config;
 pub mod draw;
+pub mod evidence;
 pub mod figures;
 pub mod film;
 mod keys;

@@ -58,9 +58,18 @@ impl View {
         Some(Self { picture, map })
     }
 
-    /// The initiation set of each skill of a run: where it may start.
+    /// The initiation set of each skill of a run, the robot at rest: where it may start.
     pub fn sets(&self, run: &Run) -> Vec<Raster> {
         self.rasters(run, |seen| run.session.members(seen))
+    }
+
+    /// The same with other features of what is seen changed, such as a key that it carries.
+    pub fn sets_where(&self, run: &Run, change: impl Fn(&mut [f32])) -> Vec<Raster> {
+        self.rasters(run, |seen| {
+            let mut seen = seen.clone();
+            change(&mut seen);
+            run.session.members(&seen)
+        })
     }
 
     /// Where other skills may aim in order to enter the set of each skill of a run.
@@ -121,14 +130,14 @@ pub fn figures(run: &mut Run, frozen: &[Watched]) -> Result<(), RunError> {
                 ..SetPicture::default()
             })
             .collect();
-        figures::sets(folder.join("initiation-sets.png"), &view.map, &pictures)?;
+        figures::sets(folder.join("initiation-sets.png"), &view.map, &pictures, "")?;
     }
     let trajectories: Vec<_> = frozen
         .iter()
         .take(TRAJECTORIES)
         .map(|w| Trajectory { points: w.acted().map(|(s, skill)| ([s[0], s[1]], skill)).collect() })
         .collect();
-    figures::trajectories(folder.join("trajectories.png"), &view.map, &trajectories)?;
+    figures::trajectories(folder.join("trajectories.png"), &view.map, &trajectories, "")?;
     Ok(())
 }
 
@@ -172,7 +181,7 @@ pub fn curves(runs: &[Run], path: &Path) -> Result<(), RunError> {
         summary,
         smoothing: SMOOTHING,
         series,
-        levels: Vec::new(),
+        ..Panel::default()
     };
     let environment = runs.first().map_or("", |run| run.config.settings.environment.as_str());
     figures::curves(

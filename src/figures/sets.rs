@@ -32,8 +32,8 @@ const MARGIN: f32 = 18.0;
 const GAP: f32 = 28.0;
 const HEAD: f32 = 54.0;
 
-/// Draws one panel a skill as one PNG. Without any skill it shows the bare map.
-pub fn sets(path: impl AsRef<Path>, map: &Map, sets: &[SetPicture]) -> Result<(), FigureError> {
+/// Draws one panel a skill as one PNG, and a remark below. Without any skill it shows the bare map.
+pub fn sets(path: impl AsRef<Path>, map: &Map, sets: &[SetPicture], note: &str) -> Result<(), FigureError> {
     let path = path.as_ref();
     map.check(path)?;
     for set in sets {
@@ -58,9 +58,11 @@ pub fn sets(path: impl AsRef<Path>, map: &Map, sets: &[SetPicture]) -> Result<()
     let width = 2.0 * MARGIN + columns as f32 * (wide + GAP) - GAP;
     let entries = entries(map, sets);
     let below = MARGIN + rows as f32 * (tall + GAP) - GAP + 14.0;
-    let legend_height = legend::height(&entries, width - 2.0 * MARGIN);
+    let inner = width - 2.0 * MARGIN;
+    let legend_height = legend::height(&entries, inner);
+    let height = below + legend_height + legend::note_height(note, inner) + MARGIN - 6.0;
 
-    let mut canvas = Canvas::new(path, width, below + legend_height + MARGIN - 6.0)?;
+    let mut canvas = Canvas::new(path, width, height)?;
     for (row, in_row) in shown.chunks(columns).enumerate() {
         for (column, set) in in_row.iter().enumerate() {
             let x = MARGIN + column as f32 * (wide + GAP);
@@ -68,7 +70,8 @@ pub fn sets(path: impl AsRef<Path>, map: &Map, sets: &[SetPicture]) -> Result<()
             draw(&mut canvas, map, set, Area { x, y, w: wide, h: tall });
         }
     }
-    legend::draw(&mut canvas, &entries, width / 2.0, below, width - 2.0 * MARGIN);
+    legend::draw(&mut canvas, &entries, width / 2.0, below, inner);
+    legend::draw_note(&mut canvas, note, width / 2.0, below + legend_height, inner);
     canvas.save(path)
 }
 

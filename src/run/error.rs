@@ -128,6 +128,9 @@ pub enum RunError {
     /// An environment that cannot be drawn.
     #[error("`{0}` has no map to draw on")]
     NoMap(String),
+    /// An experiment is at fault.
+    #[error(transparent)]
+    Evidence(#[from] crate::evidence::EvidenceError),
     /// A picture could not be drawn.
     #[error(transparent)]
     Figure(#[from] crate::figures::FigureError),
