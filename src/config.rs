@@ -172,7 +172,7 @@ fn word<T: FromStr<Err = WordError>>(word: &str) -> Result<Option<T>, ConfigErro
 }
 
 impl Config {
-    /// The defaults of an agent in an environment.
+    /// The defaults of an agent in an environment: its own, with what suits the environment ([`assembly::suits`]).
     ///
     /// # Errors
     /// [`ConfigError::UnknownName`] with the nearest name.
@@ -193,7 +193,8 @@ impl Config {
                 ..World::default()
             },
         };
-        Ok(Self { settings, agent: (entry.defaults)() })
+        let defaults = Self { settings, agent: (entry.defaults)() };
+        assembly::suits(agent, environment).try_fold(defaults, |config, suit| config.overlaid(&suit))
     }
 
     /// The same with a memory that pictures fit in, where the environment, as it is set, is seen as pictures.

@@ -19,6 +19,7 @@ pub mod parts;
 mod proto;
 mod recurrent;
 mod shared;
+mod suits;
 
 use inroads_agents::nets::Backend;
 use inroads_discovery::Skilled;
@@ -28,6 +29,8 @@ use inroads_envs::{
     world::Layout,
 };
 use toml::Table;
+
+pub use suits::suits;
 
 use crate::config::ConfigError;
 

@@ -2,6 +2,7 @@
 
 mod goals;
 mod graph;
+mod skills;
 
 pub use goals::Questions;
 pub use graph::{differ, feature_name, tried, whereabouts};
@@ -12,7 +13,7 @@ use inroads_envs::{maze::Picture, registry};
 
 use crate::{
     config::Settings,
-    figures::{self, Map, Panel, Pose, Raster, Rect, Series, SetPicture, Trajectory},
+    figures::{self, Map, Panel, Pose, Raster, Rect, Series, Trajectory},
     run::{Run, RunError},
     session::{self, EpisodeMetrics, Watched},
 };
@@ -23,8 +24,6 @@ const RASTER: usize = 160;
 const BORDER: f32 = 0.75;
 /// Episodes over which curves are smoothed.
 const SMOOTHING: usize = 20;
-/// Initiation sets in one figure.
-const SETS: usize = 25;
 /// Solution trajectories in one figure.
 const TRAJECTORIES: usize = 5;
 
@@ -55,12 +54,17 @@ impl View {
         Some(Self { picture, map })
     }
 
-    /// The initiation set of each skill of a run.
-    pub fn sets(&self, run: &Run) -> Vec<Raster> {
+    /// The initiation set of each skill of a run, without the key or with it; nothing with it where there is no key.
+    pub fn sets(&self, run: &Run, held: bool) -> Vec<Raster> {
+        if held && self.picture.key.is_none() {
+            return Vec::new();
+        }
         let skills = run.session.skills().len();
         let mut rasters = vec![Raster { nx: RASTER, ny: RASTER, inside: Vec::new() }; skills];
         Raster::of(&self.map, RASTER, RASTER, |at| {
-            let members = run.session.members(&self.picture.observation_at(at.map(f64::from)));
+            let at = at.map(f64::from);
+            let holding = held.then(|| self.picture.holding_at(at)).flatten();
+            let members = run.session.members(&holding.unwrap_or_else(|| self.picture.observation_at(at)));
             for (raster, member) in rasters.iter_mut().zip(members) {
                 raster.inside.push(member);
             }
@@ -82,31 +86,8 @@ pub fn figures(run: &mut Run, frozen: &[Watched]) -> Result<(), RunError> {
     goals::growth(run)?;
     graph::graph(run)?;
     let Some(view) = View::of(&run.config.settings) else { return Ok(()) };
-    let skills = run.session.skills();
-    if !skills.is_empty() {
-        let mut most: Vec<_> = skills.iter().zip(view.sets(run)).collect();
-        // Where there are more than one could look at, those that are used.
-        most.sort_by_key(|(skill, _)| std::cmp::Reverse(skill.executions));
-        most.truncate(SETS);
-        most.sort_by_key(|(skill, _)| skill.skill);
-        let pictures: Vec<_> = most
-            .into_iter()
-            .map(|(skill, region)| SetPicture {
-                title: match skill.enters {
-                    None => format!("skill {} → reaches the goal", skill.skill),
-                    Some(parent) => format!("skill {} → enters skill {parent}", skill.skill),
-                },
-                subtitle: format!(
-                    "covers {:.0} % of free space",
-                    100.0 * region.share_of_free_space(&view.map)
-                ),
-                colour: skill.skill as usize,
-                region,
-                ..SetPicture::default()
-            })
-            .collect();
-        figures::sets(folder.join("initiation-sets.png"), &view.map, &pictures)?;
-    }
+    skills::sets(run, &view)?;
+    skills::tree(run, &view)?;
     let trajectories: Vec<_> = frozen
         .iter()
         .take(TRAJECTORIES)

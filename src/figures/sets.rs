@@ -34,7 +34,18 @@ const HEAD: f32 = 54.0;
 
 /// Draws one panel a skill as one PNG. Without any skill it shows the bare map.
 pub fn sets(path: impl AsRef<Path>, map: &Map, sets: &[SetPicture]) -> Result<(), FigureError> {
-    let path = path.as_ref();
+    let rows = sets.len().max(1).div_ceil(5);
+    sets_in_columns(path, map, sets, sets.len().max(1).div_ceil(rows))
+}
+
+/// The same with so many panels a row (at least 1): one a skill, say, and a row for each case (figure 3.2).
+pub fn sets_in_columns(
+    path: impl AsRef<Path>,
+    map: &Map,
+    sets: &[SetPicture],
+    columns: usize,
+) -> Result<(), FigureError> {
+    let (path, columns) = (path.as_ref(), columns.max(1));
     map.check(path)?;
     for set in sets {
         let Raster { nx, ny, ref inside } = set.region;
@@ -46,8 +57,7 @@ pub fn sets(path: impl AsRef<Path>, map: &Map, sets: &[SetPicture]) -> Result<()
     let none = [SetPicture { title: "no skills yet".to_owned(), ..SetPicture::default() }];
     let shown = if sets.is_empty() { &none } else { sets };
 
-    let rows = shown.len().div_ceil(5);
-    let columns = shown.len().div_ceil(rows);
+    let rows = shown.len().div_ceil(columns);
     let wide = match columns {
         1 => 460.0,
         2 => 400.0,

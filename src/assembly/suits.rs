@@ -1,0 +1,48 @@
+//! What suits an environment: settings of agents that are other than an agent's own defaults there.
+//!
+//! They were found with the budget that `docs/results/chapter-3.md` tells, the same for all agents of a figure. A run's
+//! `config.toml` has every value, whoever chose it, and `--set` overrides these as it does all defaults.
+
+use toml::Table;
+
+/// Agents, environments, and what suits these agents there.
+struct Suit {
+    agents: &'static [&'static str],
+    environments: &'static [&'static str],
+    settings: &'static str,
+}
+
+/// Later lines override earlier ones.
+const SUITS: &[Suit] = &[
+    // Two legs, or two starts: noise that goes on in one direction finds the goal twice as often as Gaussian noise.
+    Suit {
+        agents: &["ddpg", "dsc"],
+        environments: &["point-e-maze", "point-lock-and-key"],
+        settings: "policy.noise.kind = 'ornstein_uhlenbeck'",
+    },
+];
+
+/// What suits an agent in an environment, as a table of its settings; empty where its defaults do.
+pub fn suits(agent: &str, environment: &str) -> impl Iterator<Item = Table> {
+    let fits = move |suit: &&Suit| suit.agents.contains(&agent) && suit.environments.contains(&environment);
+    SUITS.iter().filter(fits).map(|suit| suit.settings.parse().expect("the table above is TOML"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::Config;
+
+    #[test]
+    fn all_that_suits_is_a_setting_that_may_be() {
+        for suit in SUITS {
+            for agent in suit.agents {
+                for environment in suit.environments {
+                    let config = Config::defaults(agent, environment).unwrap();
+                    let own = (super::super::agent(agent).unwrap().defaults)();
+                    assert_ne!(config.agent, own, "{agent} in {environment} is as everywhere");
+                }
+            }
+        }
+    }
+}
