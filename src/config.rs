@@ -103,6 +103,13 @@ pub struct Settings {
     pub max_steps: u64,
     /// Frozen, noise-free episodes after training.
     pub evaluation_episodes: u64,
+    /// Where training episodes begin: `anywhere` in the free space of a maze; empty for the environment's own starts, which
+    /// frozen episodes always have (`decisions.md`: starts in training, chapter 4).
+    pub starts: String,
+    /// After every so many training episodes frozen ones are rolled out, and `tests.jsonl` tells of them; 0: never.
+    pub test_every: u64,
+    /// How many frozen episodes each time.
+    pub test_episodes: u64,
     /// A checkpoint is written every so many episodes.
     pub checkpoint_every: u64,
     /// What is another in the environment than the registry has it.
@@ -187,6 +194,9 @@ impl Config {
             lanes: 1,
             max_steps: 0,
             evaluation_episodes: 20,
+            starts: String::new(),
+            test_every: 0,
+            test_episodes: 1,
             checkpoint_every: 25,
             world: World {
                 layout: assembly::usual_layout(agent, environment).to_owned(),

@@ -10,7 +10,7 @@ use inroads_agents::Bag;
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::json;
 
-use super::{Growth, RunError, checkpoint};
+use super::{Growth, RunError, TestMetrics, checkpoint};
 use crate::{config::Config, session::EpisodeMetrics};
 
 /// A run's folder.
@@ -76,6 +76,11 @@ impl Folder {
         self.path.join("goals.jsonl")
     }
 
+    /// Frozen tests while it trained, a line each time; not there before the first.
+    pub fn tests(&self) -> PathBuf {
+        self.path.join("tests.jsonl")
+    }
+
     /// The pictures.
     pub fn figures(&self) -> PathBuf {
         self.path.join("figures")
@@ -123,6 +128,19 @@ impl Folder {
         append(&self.goals(), growth)
     }
 
+    /// Writes a line about frozen tests.
+    pub(super) fn append_tests(&self, tests: &TestMetrics) -> Result<(), RunError> {
+        append(&self.tests(), tests)
+    }
+
+    /// What frozen tests came to; nothing where none was asked for.
+    ///
+    /// # Errors
+    /// [`RunError::Io`] when the file cannot be read or a line is not ours.
+    pub fn read_tests(&self) -> Result<Vec<TestMetrics>, RunError> {
+        if self.tests().exists() { read_lines(&self.tests()) } else { Ok(Vec::new()) }
+    }
+
     /// How the goal space grew; nothing where the agent has no goals.
     ///
     /// # Errors
@@ -146,12 +164,8 @@ impl Folder {
 
     /// Drops all lines of the logs that were written after the first `episodes`.
     pub(super) fn rewind(&self, episodes: u64) -> Result<(), RunError> {
-        if self.goals().exists() {
-            let text = fs::read_to_string(self.goals()).map_err(RunError::io("read", &self.goals()))?;
-            let growth = |line: &str| serde_json::from_str::<Growth>(line).ok();
-            let before = |line: &&str| growth(line).is_some_and(|growth| growth.episodes <= episodes);
-            rewrite(&self.goals(), &text.split_inclusive('\n').filter(before).collect::<String>())?;
-        }
+        drop_after::<Growth>(&self.goals(), |line| line.episodes <= episodes)?;
+        drop_after::<TestMetrics>(&self.tests(), |line| line.episodes <= episodes)?;
         for file in [self.metrics(), self.timings()] {
             let text = fs::read_to_string(&file).map_err(RunError::io("read", &file))?;
             // A killed run may have left half a line; `lines` counts it, and it is among those dropped.
@@ -178,6 +192,16 @@ impl Folder {
         let sessions: Vec<serde_json::Value> = read_lines(&self.sessions())?;
         Ok(sessions.iter().filter_map(|s| s["seconds"].as_f64()).sum())
     }
+}
+
+/// Drops the lines of a log, if it exists, that are not `kept`, and half a line that a killed run may have left.
+fn drop_after<T: DeserializeOwned>(file: &Path, kept: impl Fn(&T) -> bool) -> Result<(), RunError> {
+    if !file.exists() {
+        return Ok(());
+    }
+    let text = fs::read_to_string(file).map_err(RunError::io("read", file))?;
+    let whole = |line: &&str| serde_json::from_str::<T>(line).is_ok_and(|line| kept(&line));
+    rewrite(file, &text.split_inclusive('\n').filter(whole).collect::<String>())
 }
 
 /// Puts a text in the place of a file's, which is never half written.

@@ -2,18 +2,20 @@
 //!
 //! A run folder holds `config.toml` (every value), `metrics.jsonl` (a line an episode, without times),
 //! `timings.jsonl` (a line an episode, with them), `sessions.jsonl` (a line each time somebody ran it), for agents that
-//! have goals `goals.jsonl` (their states now and then), `checkpoints/`, `figures/` and, when it is done, `summary.json`.
+//! have goals `goals.jsonl` (their states now and then), where tests are asked for `tests.jsonl`, `checkpoints/`, `figures/` and, when it is done, `summary.json`.
 
 mod checkpoint;
 mod error;
 mod folder;
 mod growth;
+mod rollout;
 mod stopped;
 mod summary;
 
 pub use error::RunError;
 pub use folder::Folder;
 pub use growth::Growth;
+pub use rollout::{Rollout, TestMetrics, Tried};
 pub use summary::{GoalSummary, GraphSummary, SetSummary, Summary};
 
 use std::{
@@ -141,6 +143,7 @@ impl Run {
                 self.folder.append(metrics, pace * f64::from(metrics.steps))?;
                 watch(metrics);
             }
+            self.test(self.session.progress().0 - round.len() as u64)?;
             self.log_goals()?;
             if self.session.progress().0 - saved >= self.config.settings.checkpoint_every {
                 saved = self.save()?;

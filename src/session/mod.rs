@@ -15,7 +15,8 @@ use inroads_agents::{Bag, Corrupt, Fault, Summary};
 use inroads_discovery::record::{GoalRecord, GraphRecord, PlanRecord, SkillRecord};
 use inroads_envs::{
     Annotated, Environment, Frame, Refused, Seed, Spec,
-    registry::{self, AnyAnnotated, AnyEnvironment},
+    maze::Starts,
+    registry::{self, AnyAnnotated, AnyEnvironment, Options},
 };
 use serde::{Deserialize, Serialize};
 
@@ -211,31 +212,46 @@ pub fn build(config: &Config) -> Result<Box<dyn Session>, ConfigError> {
     match environment(settings)? {
         AnyEnvironment::Vectors(env) => {
             let same = |env| if let AnyEnvironment::Vectors(env) = env { Some(env as _) } else { None };
-            continuous(lanes::<BoxedEnvironment<Vector, Vector>>(env, settings, same)?, config)
+            let lanes = lanes::<BoxedEnvironment<Vector, Vector>>(env, settings, same)?;
+            lanes.pair(config, |entry| entry.continuous)
         }
         AnyEnvironment::Choices(env) => {
             let same = |env| if let AnyEnvironment::Choices(env) = env { Some(env as _) } else { None };
-            discrete(lanes::<BoxedEnvironment<Vector, usize>>(env, settings, same)?, config)
+            let lanes = lanes::<BoxedEnvironment<Vector, usize>>(env, settings, same)?;
+            lanes.pair(config, |entry| entry.discrete)
         }
         AnyEnvironment::Frames(_) if entry.pictured.is_none() => Err(blind(settings)),
         AnyEnvironment::Frames(env) => {
             let same = |env| if let AnyEnvironment::Frames(env) = env { Some(env as _) } else { None };
-            pictured(lanes::<BoxedEnvironment<Frame, usize>>(env, settings, same)?, config)
+            let lanes = lanes::<BoxedEnvironment<Frame, usize>>(env, settings, same)?;
+            lanes.pair(config, |entry| entry.pictured)
         }
     }
 }
 
-/// The environments of all lanes, of which there is the first. `same` takes another one for what they all are.
-fn lanes<T>(
-    first: T,
+/// The environments of a run: one a lane, and one for evaluations where training episodes begin elsewhere.
+struct Lanes<E> {
+    training: Vec<E>,
+    evaluation: Option<E>,
+}
+
+/// The environments of a run that evaluates in `stage`. `same` takes another one for what they all are.
+fn lanes<E>(
+    stage: E,
     settings: &Settings,
-    same: fn(AnyEnvironment) -> Option<T>,
-) -> Result<Vec<T>, ConfigError> {
-    let mut all = vec![first];
-    for _ in 1..settings.lanes {
-        all.extend(same(environment(settings)?));
-    }
-    Ok(all)
+    same: fn(AnyEnvironment) -> Option<E>,
+) -> Result<Lanes<E>, ConfigError> {
+    let made = |_| training_environment(settings).map(same);
+    let lanes = |from: u64| (from..settings.lanes).map(made).collect::<Result<Option<Vec<_>>, _>>();
+    let unlike = "an environment is of the same kind wherever its episodes begin";
+    Ok(match settings.starts.is_empty() {
+        true => {
+            let mut training = vec![stage];
+            training.extend(lanes(1)?.expect(unlike));
+            Lanes { training, evaluation: None }
+        }
+        false => Lanes { training: lanes(0)?.expect(unlike), evaluation: Some(stage) },
+    })
 }
 
 /// What is said to an agent that reads no pictures where there are only those.
@@ -261,6 +277,20 @@ pub fn environment(settings: &Settings) -> Result<AnyEnvironment, ConfigError> {
     world(&settings.environment, &settings.world)
 }
 
+/// Builds the environment that a run trains in: the same, with episodes that begin where [`Settings::starts`] says.
+fn training_environment(settings: &Settings) -> Result<AnyEnvironment, ConfigError> {
+    let starts = match settings.starts.as_str() {
+        "" => None,
+        "anywhere" => Some(Starts::Anywhere),
+        other => {
+            let why =
+                format!("starts is \"{other}\"; it must be \"anywhere\", or empty for the environment's own");
+            return Err(ConfigError::Impossible { table: "the run's settings".into(), why });
+        }
+    };
+    settings.world.with_options(|own| registry::make_with(&settings.environment, &Options { starts, ..*own }))
+}
+
 /// Builds an environment of the registry with a map, scale or body of the user's own.
 ///
 /// # Errors
@@ -278,7 +308,7 @@ pub fn continuous(
     envs: Vec<BoxedEnvironment<Vector, Vector>>,
     config: &Config,
 ) -> Result<Box<dyn Session>, ConfigError> {
-    pair(envs, config, |entry| entry.continuous)
+    own(envs, config, |entry| entry.continuous)
 }
 
 /// Builds the session of environments of your own, whose actions are choices.
@@ -289,7 +319,7 @@ pub fn discrete(
     envs: Vec<BoxedEnvironment<Vector, usize>>,
     config: &Config,
 ) -> Result<Box<dyn Session>, ConfigError> {
-    pair(envs, config, |entry| entry.discrete)
+    own(envs, config, |entry| entry.discrete)
 }
 
 /// Builds the session of an environment of your own that tells which proto-goals hold, and whose actions are choices.
@@ -300,7 +330,7 @@ pub fn annotated(
     envs: Vec<BoxedEnvironment<Annotated<Vector>, usize>>,
     config: &Config,
 ) -> Result<Box<dyn Session>, ConfigError> {
-    pair(envs, config, |entry| entry.annotated)
+    own(envs, config, |entry| entry.annotated)
 }
 
 /// Builds the session of an environment of your own that is seen as pictures, and whose actions are choices.
@@ -311,44 +341,63 @@ pub fn pictured(
     envs: Vec<BoxedEnvironment<Frame, usize>>,
     config: &Config,
 ) -> Result<Box<dyn Session>, ConfigError> {
-    pair(envs, config, |entry| entry.pictured)
+    own(envs, config, |entry| entry.pictured)
 }
 
 /// An environment with observations of type `O` and actions of type `A`.
 pub type BoxedEnvironment<O, A> = Box<dyn Environment<Observation = O, Action = A> + Send>;
 
-fn pair<O: Seen + 'static, A: Clone + Into<Action> + 'static>(
-    envs: Vec<BoxedEnvironment<O, A>>,
+/// A session of somebody's own environments, which are evaluated in where they are trained in.
+fn own<O: Seen + 'static, A: Clone + Into<Action> + 'static>(
+    training: Vec<BoxedEnvironment<O, A>>,
     config: &Config,
     of: fn(&AgentEntry) -> Option<Build<O, A>>,
 ) -> Result<Box<dyn Session>, ConfigError> {
-    let settings = &config.settings;
-    let Some(build) = of(assembly::agent(&settings.agent)?) else {
-        return Err(ConfigError::UnknownName(format!(
-            "agent `{}` cannot act in `{}`, whose observations or actions are of another kind; these can: {}",
-            settings.agent,
-            settings.environment,
-            names(|entry| of(entry).is_some())
-        )));
-    };
-    if envs.len() as u64 != settings.lanes {
-        let why = format!("lanes is {}, and there are {} environments", settings.lanes, envs.len());
+    if !config.settings.starts.is_empty() {
+        let why =
+            "starts chooses among the registry's; environments of your own begin where they do".to_owned();
         return Err(ConfigError::Impossible { table: "the run's settings".into(), why });
     }
-    let seed = Seed(settings.seed);
-    let mut agent = build(envs[0].spec(), &config.agent, settings.backend, seed)?;
-    if settings.lanes > 1 && agent.crowd().is_none() {
-        let usual = |e: &&AgentEntry| {
-            of(e).and_then(|build| build(envs[0].spec(), &(e.defaults)(), settings.backend, seed).ok())
+    Lanes { training, evaluation: None }.pair(config, of)
+}
+
+impl<O: Seen + 'static, A: Clone + Into<Action> + 'static> Lanes<BoxedEnvironment<O, A>> {
+    /// The session of these environments and the configuration's agent.
+    fn pair(
+        self,
+        config: &Config,
+        of: fn(&AgentEntry) -> Option<Build<O, A>>,
+    ) -> Result<Box<dyn Session>, ConfigError> {
+        let Self { training: envs, evaluation } = self;
+        let settings = &config.settings;
+        let Some(build) = of(assembly::agent(&settings.agent)?) else {
+            return Err(ConfigError::UnknownName(format!(
+                "agent `{}` cannot act in `{}`, whose observations or actions are of another kind; these can: {}",
+                settings.agent,
+                settings.environment,
+                names(|entry| of(entry).is_some())
+            )));
         };
-        let able = assembly::agents().filter(|e| usual(e).is_some_and(|mut agent| agent.crowd().is_some()));
-        let why = format!(
-            "lanes is {}, and agent `{}` lives one episode at a time; set lanes = 1, or take an agent that lives several: {}",
-            settings.lanes,
-            settings.agent,
-            able.map(|e| e.name).collect::<Vec<_>>().join(", ")
-        );
-        return Err(ConfigError::Impossible { table: "the run's settings".into(), why });
+        if envs.len() as u64 != settings.lanes {
+            let why = format!("lanes is {}, and there are {} environments", settings.lanes, envs.len());
+            return Err(ConfigError::Impossible { table: "the run's settings".into(), why });
+        }
+        let seed = Seed(settings.seed);
+        let mut agent = build(envs[0].spec(), &config.agent, settings.backend, seed)?;
+        if settings.lanes > 1 && agent.crowd().is_none() {
+            let usual = |e: &&AgentEntry| {
+                of(e).and_then(|build| build(envs[0].spec(), &(e.defaults)(), settings.backend, seed).ok())
+            };
+            let able =
+                assembly::agents().filter(|e| usual(e).is_some_and(|mut agent| agent.crowd().is_some()));
+            let why = format!(
+                "lanes is {}, and agent `{}` lives one episode at a time; set lanes = 1, or take an agent that lives several: {}",
+                settings.lanes,
+                settings.agent,
+                able.map(|e| e.name).collect::<Vec<_>>().join(", ")
+            );
+            return Err(ConfigError::Impossible { table: "the run's settings".into(), why });
+        }
+        Ok(Box::new(Pair::new(envs, evaluation, agent, seed)))
     }
-    Ok(Box::new(Pair::new(envs, agent, seed)))
 }

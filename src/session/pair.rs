@@ -52,8 +52,10 @@ impl Seen for Annotated<Vector> {
 }
 
 pub(super) struct Pair<O, A> {
-    /// One a lane, the first for evaluations too.
+    /// One a lane.
     envs: Vec<BoxedEnvironment<O, A>>,
+    /// The one that evaluations are played in, where training episodes begin elsewhere; else the first lane's is.
+    stage: Option<BoxedEnvironment<O, A>>,
     agent: BoxedAgent<O, A>,
     seed: Seed,
     episodes: u64,
@@ -66,15 +68,21 @@ fn stopped(episode: u64, before: u64, Halt { step, fault }: Halt) -> Stopped {
 }
 
 impl<O: Seen, A: Clone> Pair<O, A> {
-    pub(super) fn new(envs: Vec<BoxedEnvironment<O, A>>, agent: BoxedAgent<O, A>, seed: Seed) -> Self {
-        Self { envs, agent, seed, episodes: 0, env_steps: 0 }
+    pub(super) fn new(
+        envs: Vec<BoxedEnvironment<O, A>>,
+        stage: Option<BoxedEnvironment<O, A>>,
+        agent: BoxedAgent<O, A>,
+        seed: Seed,
+    ) -> Self {
+        Self { envs, stage, agent, seed, episodes: 0, env_steps: 0 }
     }
 
     /// Begins evaluation episode number `index`; its first observation.
     fn first(&mut self, index: u64) -> O {
         let mut first = O::default();
-        self.envs[0].reset(self.seed.number("evaluate-start", index));
-        self.envs[0].observe(&mut first);
+        let stage = self.stage.as_mut().unwrap_or(&mut self.envs[0]);
+        stage.reset(self.seed.number("evaluate-start", index));
+        stage.observe(&mut first);
         first
     }
 }
@@ -130,7 +138,8 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
         let mut ctx = Context::evaluation(self.seed, index);
         let start = self.seed.number("evaluate-start", index);
         let (mut path, mut skills, mut actions, mut covered) = (Vec::new(), Vec::new(), Vec::new(), false);
-        let summary = episode(&mut *self.envs[0], &mut *actor, start, &mut ctx, |t, source| {
+        let stage = self.stage.as_mut().unwrap_or(&mut self.envs[0]);
+        let summary = episode(&mut **stage, &mut *actor, start, &mut ctx, |t, source| {
             if skills.is_empty() {
                 path.extend(t.before.seen().cloned());
                 covered = self.agent.members(t.before).contains(&true);
@@ -176,7 +185,8 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
         let mut journey = Journey::new(&*self.agent, [from?, to?])?;
         let mut ctx = Context::evaluation(self.seed, index);
         let start = self.seed.number("evaluate-start", index);
-        let summary = episode(&mut *self.envs[0], &mut journey, start, &mut ctx, |_, _| ())
+        let stage = self.stage.as_mut().unwrap_or(&mut self.envs[0]);
+        let summary = episode(&mut **stage, &mut journey, start, &mut ctx, |_, _| ())
             .map_err(|halt| stopped(index, 0, halt))?;
         let [departed, arrived] = journey.reached();
         Ok(Travelled { departed, arrived, summary })

@@ -17,7 +17,8 @@ const EDGE: f32 = 0.5;
 /// The session of the agent in its corridor.
 pub(crate) fn session() -> Box<dyn Session> {
     let env = TimeLimit::new(Corridor::named("corridor-5", CELLS as usize), 50);
-    Box::new(Pair::new(vec![Box::new(env)], Box::new(Walker { visits: vec![0; CELLS as usize] }), Seed(0)))
+    let walker = Box::new(Walker { visits: vec![0; CELLS as usize] });
+    Box::new(Pair::new(vec![Box::new(env)], None, walker, Seed(0)))
 }
 
 struct Walker {
