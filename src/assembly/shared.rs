@@ -123,3 +123,31 @@ pub(super) fn choices(spec: &Spec) -> usize {
         other => other.len(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use inroads_envs::{
+        Environment,
+        maze::{
+            PointMaze,
+            catalogue::{LOCK_AND_KEY, U_MAZE},
+        },
+    };
+
+    use super::*;
+
+    #[test]
+    fn metres_stay_metres_and_a_key_is_as_much_as_half_the_map() {
+        let row = |maze, which, seen: &[f32]| {
+            let encoder = features(PointMaze::new(maze).unwrap().spec(), which);
+            let mut row = vec![0.0; encoder.width()];
+            encoder.write(&seen.to_vec(), &mut row);
+            row
+        };
+        assert_eq!(row(&U_MAZE, FeatureSet::Place, &[4.0, 8.0, 0.5, 0.0, 0.0, 0.0]), [4.0, 8.0]);
+        // Free space is from -3 to 11; the heading is read as a point on a circle.
+        let seen = [4.0, 11.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        assert_eq!(row(&LOCK_AND_KEY, FeatureSet::Place, &seen), [0.0, 1.0, -1.0]);
+        assert_eq!(row(&LOCK_AND_KEY, FeatureSet::All, &seen)[..5], [0.0, 1.0, -1.0, 0.0, 1.0]);
+    }
+}

@@ -156,6 +156,22 @@ fn a_raster_counts_free_space_from_the_lowest_row() {
 }
 
 #[test]
+fn regions_overlap_by_cells_and_have_their_middle_inside() {
+    let map = Map { bounds: Rect { min: [0.0, 0.0], max: [3.0, 3.0] }, ..Map::default() };
+    let left = Raster::of(&map, 3, 3, |point| point[0] < 2.0);
+    let low = Raster::of(&map, 3, 3, |point| point[1] < 1.0);
+    assert_eq!(left.overlap(&low), 2.0 / 7.0);
+    let empty = Raster::of(&map, 3, 3, |_| false);
+    assert_eq!((left.overlap(&empty), empty.overlap(&empty)), (0.0, 1.0));
+    // Of an L the mean is (1.1, 1.1), in no cell of it.
+    let bent = Raster::of(&map, 3, 3, |[x, y]| x < 1.0 || y < 1.0);
+    let [x, y] = bent.middle(&map).unwrap();
+    assert!(x < 1.0 || y < 1.0, "{x}, {y}");
+    assert_eq!(low.middle(&map), Some([1.5, 0.5]));
+    assert_eq!(empty.middle(&map), None);
+}
+
+#[test]
 fn free_space_is_within_the_bounds_and_in_no_wall() {
     let map = u_maze();
     assert!(map.is_free([0.0, 0.0]) && !map.is_free([0.0, 4.0]) && !map.is_free([99.0, 0.0]));

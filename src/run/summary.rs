@@ -165,6 +165,7 @@ impl Run {
         let last = &metrics[metrics.len().saturating_sub(50)..];
         let (episodes, env_steps) = self.session.progress();
         let goals = self.session.goals();
+        let starts = View::of(&self.config.settings).map(|view| view.map.starts).unwrap_or_default();
         let settings = &self.config.settings;
         let summary = Summary {
             agent: settings.agent.clone(),
@@ -181,7 +182,7 @@ impl Run {
             eval_episodes: n,
             eval_success: share(frozen.iter().map(|w| w.summary.success)),
             eval_median_steps: median_steps(&frozen),
-            eval_by_start: self.by_start(&frozen),
+            eval_by_start: if starts.len() > 1 { by_start(&starts, &frozen) } else { Vec::new() },
             eval_skill_share: mean(frozen.iter().map(Watched::skill_share)),
             chain_success: (!alone.is_empty()).then(|| share(alone.iter().map(|w| w.summary.success))),
             chain_median_steps: median_steps(&alone),
@@ -224,34 +225,29 @@ impl Run {
             })
             .collect()
     }
+}
 
-    /// Every episode belongs to the place that it began nearest to.
-    fn by_start(&self, frozen: &[Watched]) -> Vec<StartSummary> {
-        let starts = View::of(&self.config.settings).map(|view| view.map.starts).unwrap_or_default();
-        if starts.len() < 2 {
-            return Vec::new();
+/// The episodes by start: each belongs to the place that it began nearest to.
+pub(super) fn by_start(starts: &[[f32; 2]], frozen: &[Watched]) -> Vec<StartSummary> {
+    let nearest = |watched: &Watched| {
+        let first = watched.path.first()?;
+        let far = |i: &usize| (starts[*i][0] - first[0]).hypot(starts[*i][1] - first[1]);
+        (0..starts.len()).min_by(|a, b| far(a).total_cmp(&far(b)))
+    };
+    let of = |i: usize| {
+        let there: Vec<_> = frozen.iter().filter(|watched| nearest(watched) == Some(i)).cloned().collect();
+        StartSummary {
+            start: starts[i].map(f64::from),
+            episodes: there.len() as u64,
+            success: share(there.iter().map(|w| w.summary.success)),
+            median_steps: median_steps(&there),
         }
-        let nearest = |watched: &Watched| {
-            let first = watched.path.first()?;
-            let far = |i: &usize| (starts[*i][0] - first[0]).hypot(starts[*i][1] - first[1]);
-            (0..starts.len()).min_by(|a, b| far(a).total_cmp(&far(b)))
-        };
-        let of = |i: usize| {
-            let there: Vec<_> =
-                frozen.iter().filter(|watched| nearest(watched) == Some(i)).cloned().collect();
-            StartSummary {
-                start: starts[i].map(f64::from),
-                episodes: there.len() as u64,
-                success: share(there.iter().map(|w| w.summary.success)),
-                median_steps: median_steps(&there),
-            }
-        };
-        (0..starts.len()).map(of).collect()
-    }
+    };
+    (0..starts.len()).map(of).collect()
 }
 
 /// What a skill did in some episodes.
-fn stretches(watched: &[Watched], skill: usize, place: &[usize]) -> Option<Stretches> {
+pub(super) fn stretches(watched: &[Watched], skill: usize, place: &[usize]) -> Option<Stretches> {
     let mut found: Vec<(&[f32], &[f32])> = Vec::new();
     for w in watched.iter().filter(|w| w.path.len() > w.skills.len()) {
         let mut step = 0;
