@@ -50,6 +50,7 @@ impl View {
             bounds: Rect { min: free.min.map(|x| x - BORDER), max: free.max.map(|x| x + BORDER) },
             goal: has_goal.then(|| (point(picture.goal), picture.tolerance as f32)),
             starts: picture.starts.iter().map(|s| point(*s)).collect(),
+            key: picture.key.map(point),
         };
         Some(Self { picture, map })
     }

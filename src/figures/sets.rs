@@ -122,9 +122,10 @@ fn entries(map: &Map, sets: &[SetPicture]) -> Vec<Entry> {
     entries
 }
 
-/// Entries for start and goal, where the map has them.
+/// Entries for start, goal and key, where the map has them.
 pub(super) fn places(map: &Map) -> impl Iterator<Item = Entry> {
     let start = (!map.starts.is_empty()).then(|| Entry::new(Mark::Start, "start"));
     let goal = map.goal.map(|_| Entry::new(Mark::Goal, "goal"));
-    start.into_iter().chain(goal)
+    let key = map.key.map(|_| Entry::new(Mark::Key, "key"));
+    start.into_iter().chain(goal).chain(key)
 }

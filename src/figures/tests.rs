@@ -49,6 +49,7 @@ fn u_maze() -> Map {
         bounds: Rect { min: [-6.0, -6.0], max: [14.0, 14.0] },
         goal: Some(([0.0, 8.0], 0.6)),
         starts: vec![[0.0, 0.0]],
+        key: None,
     }
 }
 
@@ -169,6 +170,15 @@ fn regions_overlap_by_cells_and_have_their_middle_inside() {
     assert!(x < 1.0 || y < 1.0, "{x}, {y}");
     assert_eq!(low.middle(&map), Some([1.5, 0.5]));
     assert_eq!(empty.middle(&map), None);
+}
+
+#[test]
+fn a_key_is_a_blue_disc_where_there_is_one() {
+    let scratch = Scratch::new("key.png");
+    for key in [None, Some([8.0, 4.0])] {
+        sets(&scratch.0, &Map { key, ..u_maze() }, &[]).unwrap();
+        assert_eq!(has(&read_png(&scratch).1, palette::KEY), key.is_some());
+    }
 }
 
 #[test]
