@@ -207,6 +207,22 @@ impl Config {
         assembly::suits(agent, environment).try_fold(defaults, |config, suit| config.overlaid(&suit))
     }
 
+    /// The defaults with what is asked for in their place: `ask` puts it there. How the world is seen is among that, and some
+    /// defaults depend on it.
+    ///
+    /// # Errors
+    /// [`ConfigError`] names what there is not, or the key and the mend.
+    pub fn asked(
+        agent: &str,
+        environment: &str,
+        ask: impl Fn(Self) -> Result<Self, ConfigError>,
+    ) -> Result<Self, ConfigError> {
+        let defaults = Self::defaults(agent, environment)?;
+        let world = ask(defaults.clone())?.settings.world;
+        let Self { settings, agent } = defaults;
+        ask(Self { settings: Settings { world, ..settings }, agent }.fitted()?)
+    }
+
     /// The same with a memory that pictures fit in, where the environment, as it is set, is seen as pictures.
     ///
     /// # Errors
@@ -234,21 +250,22 @@ impl Config {
     /// # Errors
     /// [`ConfigError`] names the key and the mend.
     pub fn with_assignment(self, assignment: &str) -> Result<Self, ConfigError> {
-        let (key, value) =
-            assignment.split_once('=').ok_or_else(|| ConfigError::NoValue(assignment.to_owned()))?;
-        let value = format!("v = {value}")
-            .parse::<Table>()
-            .ok()
-            .and_then(|mut table| table.remove("v"))
-            .unwrap_or_else(|| Value::String(value.to_owned()));
-        let over = key
-            .trim()
-            .rsplit('.')
-            .fold(value, |value, part| Value::Table(Table::from_iter([(part.to_owned(), value)])));
-        match over {
-            Value::Table(over) => self.overlaid(&over),
-            _ => Err(ConfigError::NoValue(assignment.to_owned())),
+        self.with_assignments([assignment])
+    }
+
+    /// The same with several values, which are checked together: each may need the others.
+    ///
+    /// # Errors
+    /// As [`with_assignment`](Self::with_assignment).
+    pub fn with_assignments<'a>(
+        self,
+        assignments: impl IntoIterator<Item = &'a str>,
+    ) -> Result<Self, ConfigError> {
+        let mut table = self.table();
+        for assignment in assignments {
+            overlay(&mut table, &assigned(assignment)?, "")?;
         }
+        self.put(table)
     }
 
     /// Reads a whole configuration, as a run folder has it.
@@ -272,9 +289,18 @@ impl Config {
         table
     }
 
-    fn overlaid(self, over: &Table) -> Result<Self, ConfigError> {
+    /// The same with a table's values in the place of its own.
+    ///
+    /// # Errors
+    /// [`ConfigError`] names the key and the mend.
+    pub fn overlaid(self, over: &Table) -> Result<Self, ConfigError> {
         let mut table = self.table();
         overlay(&mut table, over, "")?;
+        self.put(table)
+    }
+
+    /// The configuration of a whole table, checked.
+    fn put(self, table: Table) -> Result<Self, ConfigError> {
         let (settings, agent) =
             table.into_iter().partition::<Table, _>(|(key, _)| !self.agent.contains_key(key));
         let settings: Settings = section(settings, "the run's settings")?;
@@ -285,6 +311,22 @@ impl Config {
         let entry = assembly::agent(&settings.agent)?;
         (entry.check)(&agent)?;
         Ok(Self { settings, agent })
+    }
+}
+
+/// The table in which `key=value` is all there is.
+fn assigned(assignment: &str) -> Result<Table, ConfigError> {
+    let (key, value) =
+        assignment.split_once('=').ok_or_else(|| ConfigError::NoValue(assignment.to_owned()))?;
+    let value = format!("v = {value}")
+        .parse::<Table>()
+        .ok()
+        .and_then(|mut table| table.remove("v"))
+        .unwrap_or_else(|| Value::String(value.to_owned()));
+    let within = |value, part: &str| Value::Table(Table::from_iter([(part.to_owned(), value)]));
+    match key.trim().rsplit('.').fold(value, within) {
+        Value::Table(table) => Ok(table),
+        _ => Err(ConfigError::NoValue(assignment.to_owned())),
     }
 }
 

@@ -157,6 +157,10 @@ impl<O, G: Encode> Learner<O, Vec<f32>, G> for Ddpg<O> {
         self.nets.values(self.inputs.rows(goals.iter().map(|goal| (s, *goal))))
     }
 
+    fn values_of(&self, states: &[O], goal: Option<&G>) -> Vec<f32> {
+        self.nets.values(self.inputs.rows(states.iter().map(|s| (s, goal))))
+    }
+
     fn learn(&mut self, clips: &[Clip<O, Vec<f32>, G>], ctx: &mut Context) -> Learned {
         if clips.is_empty() {
             return Learned::default();

@@ -186,6 +186,12 @@ pub trait Learner<O, A, G>: Checkpoint {
     /// [`Pay::ATTAINMENT`](experience::Pay::ATTAINMENT) that is the discounted probability of getting there.
     fn values(&self, memory: &Memory, s: &O, goals: &[Option<&G>]) -> Vec<f32>;
 
+    /// What each of these states is worth to somebody on the way to one goal, who remembers nothing. Whoever computes on
+    /// matrices computes them together.
+    fn values_of(&self, states: &[O], goal: Option<&G>) -> Vec<f32> {
+        states.iter().flat_map(|s| self.values(&Memory::new(), s, &[goal])).collect()
+    }
+
     /// The actions at several states at once, one of each lane. Whoever computes on matrices computes them together.
     fn act_all(&self, lanes: &mut [Lane<'_, O, G>]) -> Vec<A> {
         lanes.iter_mut().map(|lane| self.act(lane.memory, lane.s, lane.goal, lane.ctx)).collect()

@@ -126,21 +126,21 @@ impl Driver {
 }
 
 /// The running call of one actor.
-struct Execution<L, G> {
-    lane: L,
+pub(crate) struct Execution<L, G> {
+    pub(crate) lane: L,
     /// The call and the steps that it has taken.
-    running: Option<(Call<G>, u32)>,
+    pub(crate) running: Option<(Call<G>, u32)>,
     /// Whoever chose the last action, for pictures.
-    last: SkillId,
+    pub(crate) last: SkillId,
 }
 
 impl<L, G: Clone> Execution<L, G> {
-    fn new(lane: L) -> Self {
+    pub(crate) fn new(lane: L) -> Self {
         Self { lane, running: None, last: SkillId::GLOBAL }
     }
 
     /// The action at `s`, after a decision if no call is running.
-    fn act<O, A, D>(&mut self, method: &D, s: &O, all: &Experience<O, A>, ctx: &mut Context) -> A
+    pub(crate) fn act<O, A, D>(&mut self, method: &D, s: &O, all: &Experience<O, A>, ctx: &mut Context) -> A
     where
         D: Discovery<O, A, Lane = L, Goal = G>,
     {
@@ -152,7 +152,11 @@ impl<L, G: Clone> Execution<L, G> {
     /// Counts the step: the call, the steps it has taken, and why it ended with this one, if it did.
     ///
     /// The order matters: reaching the subgoal at the last moment counts as reaching it.
-    fn advance<O, A, D>(&mut self, method: &D, t: &Transition<O, A>) -> (Call<G>, u32, Option<Stop>)
+    pub(crate) fn advance<O, A, D>(
+        &mut self,
+        method: &D,
+        t: &Transition<O, A>,
+    ) -> (Call<G>, u32, Option<Stop>)
     where
         D: Discovery<O, A, Lane = L, Goal = G>,
     {

@@ -3,7 +3,7 @@
 use inroads_agents::{Actor, Agent, Aimed, Flat, Mpc};
 use serde::{Deserialize, Serialize};
 
-use crate::chain::Phase;
+use crate::{Stop, chain::Phase};
 
 /// One learned skill, as plain data.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -130,6 +130,24 @@ impl PlanRecord {
     }
 }
 
+/// What one call of a skill came to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Came {
+    /// Why it handed back.
+    pub stop: Stop,
+    /// The steps that it took; 0 where it was called inside its subgoal and had nothing to do.
+    pub steps: u32,
+    /// Whether it ended inside its subgoal: also where it was told one state of it, and came to another (as training counts).
+    pub success: bool,
+}
+
+/// One call of a skill, watched without learning: it begins where the episode does. Once it is over the agent goes on as it
+/// likes, so whoever wanted the call alone leaves then.
+pub trait Trial<O, A>: Actor<O, A> {
+    /// What the call came to; none before it is over.
+    fn came(&self) -> Option<Came>;
+}
+
 /// An agent whose skills can be looked at. An agent without skills says so by doing nothing.
 pub trait Skilled<O, A>: Agent<O, A> {
     /// All learned skills.
@@ -140,6 +158,23 @@ pub trait Skilled<O, A>: Agent<O, A> {
     /// Of all learned skills in order: whether `s` is in its initiation set.
     fn members(&self, _s: &O) -> Vec<bool> {
         Vec::new()
+    }
+
+    /// Of all learned skills in order: whether another skill may aim at `s` in order to enter its initiation set (4.1.1).
+    fn targets(&self, _s: &O) -> Vec<bool> {
+        Vec::new()
+    }
+
+    /// Of all learned skills in order: how probable the agent holds it to be that the skill succeeds from `s`; none where its sets
+    /// only tell inside from outside.
+    fn chances(&self, _s: &O) -> Vec<Option<f32>> {
+        Vec::new()
+    }
+
+    /// One call of that learned skill, wherever it may start by its set; none when there is no such skill, or skills cannot be
+    /// called one by one.
+    fn one_call(&self, _skill: u32) -> Option<Box<dyn Trial<O, A> + '_>> {
+        None
     }
 
     /// The agent without learning, and without primitive actions wherever a learned skill may start; none when

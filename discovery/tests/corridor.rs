@@ -10,15 +10,17 @@
 use std::sync::Arc;
 
 use inroads_agents::{
-    Actor, Agent, Context, Pace, TabularQ, classify::Nearest, encode::Select, episode, tabular::TabularConfig,
+    Actor, Agent, Context, Pace, TabularQ, Transition, classify::Nearest, encode::Select, episode,
+    tabular::TabularConfig,
 };
 use inroads_discovery::{
-    Binary, ChainConfig, Chaining, Hierarchy, PerSkill, Skilled,
+    Binary, ChainConfig, Chaining, Hierarchy, PerSkill, Skilled, Stop,
     chain::{
         Phase,
         metrics::{chain_from, leaves},
     },
     over_skills::{Epsilon, TabularOverSkills},
+    record::Came,
 };
 use inroads_envs::{
     Dimension, End, Environment, Goal, Refused, Seed, Space, Spec, Step, TimeLimit, corridor::Corridor,
@@ -126,6 +128,53 @@ fn the_chain_is_the_one_that_must_be_found() {
     assert_eq!(path, [(0.0, 1), (1.0, 1), (2.0, 1), (3.0, 1)]);
 }
 
+/// One call of a skill from a cell, and what it came to.
+fn called(agent: &Dsc, skill: u32, mut cell: usize) -> Came {
+    let mut trial = agent.one_call(skill).expect("it is learned");
+    let mut ctx = Context::evaluation(Seed(0), 0);
+    trial.begin(&vec![cell as f32], &mut ctx);
+    loop {
+        if let Some(came) = trial.came() {
+            return came;
+        }
+        let before = vec![cell as f32];
+        let action = trial.act(&before, &mut ctx);
+        assert_eq!(trial.source(), skill as usize);
+        cell = if action == 1 { cell + 1 } else { cell.saturating_sub(1) };
+        let (after, done) = (vec![cell as f32], cell == 4);
+        let (reward, end) = (if done { 0.0 } else { -1.0 }, done.then_some(End::Terminated));
+        let t = Transition { before: &before, action: &action, reward, after: &after, end };
+        trial.observe(&t, &mut ctx);
+    }
+}
+
+#[test]
+fn a_skill_can_be_called_alone_from_anywhere() {
+    let (agent, _) = train(7, 60);
+    let reached = |steps| Came { stop: Stop::Reached, steps, success: true };
+    // Skill 1 goes to the goal and skill 2 into the set of skill 1, which begins at cell 2.
+    assert_eq!([2, 3].map(|cell| called(&agent, 1, cell)), [reached(2), reached(1)]);
+    assert_eq!([0, 1].map(|cell| called(&agent, 2, cell)), [reached(2), reached(1)]);
+    // Where their subgoals hold they have nothing to do.
+    assert_eq!((called(&agent, 1, 4), called(&agent, 2, 3)), (reached(0), reached(0)));
+    assert!(agent.one_call(0).is_none() && agent.one_call(3).is_none(), "there are two learned skills");
+    let targets: Vec<_> = (0..5).map(|cell| agent.targets(&vec![cell as f32])).collect();
+    assert_eq!(targets, (0..5).map(|cell| agent.members(&vec![cell as f32])).collect::<Vec<_>>());
+    assert_eq!(agent.chances(&vec![0.0]), [None, None], "such sets tell inside from outside only");
+}
+
+#[test]
+fn a_call_that_nobody_wants_runs_out_of_time() {
+    // Young skills of which nothing was learned: each walk to and fro ends after five steps at most.
+    let (agent, births) = train(7, 1);
+    assert_eq!(births, [(0, 1)]);
+    for cell in 0..4 {
+        let came = called(&agent, 1, cell);
+        assert!(came.steps <= 5 && came.success == (came.stop == Stop::Reached), "{came:?}");
+        assert!(came.stop != Stop::TimedOut || came.steps == 5);
+    }
+}
+
 #[test]
 fn watching_changes_nothing() {
     let (agent, _) = train(7, 20);
@@ -137,6 +186,7 @@ fn watching_changes_nothing() {
     let before = bytes(&agent);
     trace(&mut *agent.frozen());
     trace(&mut *agent.chain_alone().unwrap());
+    called(&agent, 1, 0);
     assert!(bytes(&agent) == before);
 }
 

@@ -29,6 +29,7 @@ const EXPERIMENTS: &[(&str, Experiment)] = &[
     ("cfn-tuning", cfn::tune),
     ("dqn", dqn::run),
     ("mpc", mpc::run),
+    ("mpc-walk", mpc::walk),
     ("r2d2-frames", r2d2_frames::run),
     ("recall", recall::run),
     ("td3-ant", td3_ant::run),

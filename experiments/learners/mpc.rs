@@ -8,10 +8,10 @@ use std::{f32::consts::TAU, sync::Arc};
 
 use inroads::{
     agents::{
-        Context, Memory, Mpc, episode,
+        Bag, Checkpoint, Context, Memory, Mpc, episode,
         mpc::{
-            Candidates, FreeBody, MpcConfig, Planner, Predict, Problem, Reach, Refining, Reward, Shooting,
-            View,
+            Candidates, FreeBody, MpcConfig, Planner, PlannerKind, Predict, Problem, Reach, Refining, Reward,
+            Shooting, View,
         },
         nets::Backend,
     },
@@ -44,6 +44,9 @@ const VELOCITY: usize = 15;
 /// States in which plans are compared are so many steps apart, and so many a seed.
 const APART: usize = 20;
 const STATES: usize = 30;
+
+/// Goals that are walked to with each planner; random shooting thinks for about a second a step.
+const WALKED: u64 = 3;
 
 /// What is compared.
 struct Variant {
@@ -105,6 +108,80 @@ pub(crate) fn run(options: &Options) -> Done {
     write(options, "mpc", &serde_json::json!({ "goals": trials, "planners": names, "plans": worths }))
 }
 
+/// What a planner came to on its way to goals.
+#[derive(Serialize)]
+struct Walk {
+    /// Predicted states a plan.
+    predictions: usize,
+    /// Steps to each goal; none where it was not reached.
+    steps: Vec<Option<u32>>,
+}
+
+/// Success and steps with each planner, with the same model, on the same goals, and no random actions.
+pub(crate) fn walk(options: &Options) -> Done {
+    let seeds = options.seeds.unwrap_or(2);
+    println!(
+        "{WALKED} goals at {FAR} m within {LIMIT} steps, the same model for all planners; {seeds} seeds"
+    );
+    let walks = over_seeds(seeds, |seed| walked(Seed(seed)));
+    for (i, (name, planner)) in walkers().iter().enumerate() {
+        let all: Vec<_> = walks.iter().flat_map(|seed| &seed[i].steps).collect();
+        let mut steps: Vec<_> = all.iter().copied().flatten().collect();
+        steps.sort_unstable();
+        let median = steps.get(steps.len() / 2).map_or("-".to_owned(), ToString::to_string);
+        let (reached, predictions) = (steps.len(), planner.planner().predictions());
+        println!(
+            "  {name:38} {reached} of {}, median {median} steps, {predictions} predictions a plan {all:?}",
+            all.len()
+        );
+    }
+    let names: Vec<_> = walkers().into_iter().map(|(name, _)| name).collect();
+    write(options, "mpc-walk", &serde_json::json!({ "planners": names, "walks": walks }))
+}
+
+/// The agent with other planners.
+fn walkers() -> Vec<(&'static str, MpcConfig)> {
+    let plain = MpcConfig { epsilon: 0.0, ..MpcConfig::default() };
+    let refining = |candidates: usize, horizon: usize| {
+        let short = Refining { candidates, elites: candidates / 10, horizon, ..Refining::default() };
+        MpcConfig {
+            refining: if horizon == 7 { Refining { discount: 0.95, ..short } } else { short },
+            ..plain.clone()
+        }
+    };
+    let default = Refining::default();
+    vec![
+        ("default: refining, 3 rounds of 250 × 15", refining(default.candidates, default.horizon)),
+        ("refining, 3 rounds of 80 × 15", refining(80, default.horizon)),
+        ("refining, 3 rounds of 80 × 7", refining(80, 7)),
+        ("random shooting, 14,000 × 7", MpcConfig { planner: PlannerKind::Shooting, ..plain.clone() }),
+    ]
+}
+
+/// What each planner comes to with the model of one agent.
+fn walked(seed: Seed) -> Vec<Walk> {
+    let (agent, mut learned) = (trained(&VARIANTS[0], seed), Bag::default());
+    agent.save(&mut learned);
+    let mut env = arena(ANT_REACHER, LIMIT);
+    let mut walks = Vec::new();
+    for (name, config) in walkers() {
+        let mut walker = untrained(&config, &env, seed);
+        walker.load(&learned).expect("they differ in the planner alone");
+        let mut steps = Vec::new();
+        for number in 0..WALKED {
+            let goal = goal(number);
+            env.set_goal(&goal.at).expect("the arena is wider than 5 m");
+            let (start, mut ctx) = (seed.number("evaluate-start", number), Context::evaluation(seed, number));
+            let summary = episode(&mut env, &mut walker.towards(goal), start, &mut ctx, |_, _| {})
+                .expect("planned actions are admitted");
+            steps.push(summary.success.then_some(summary.steps));
+            eprintln!("  {name} {seed:?}: {steps:?}");
+        }
+        walks.push(Walk { predictions: config.planner().predictions(), steps });
+    }
+    walks
+}
+
 fn report(name: &str, results: &[Trial]) {
     let reached: Vec<_> = results.iter().map(|trial| trial.reached).collect();
     let mut steps: Vec<_> = results.iter().flat_map(|trial| trial.steps.iter().flatten()).collect();
@@ -125,14 +202,19 @@ fn goal(number: u64) -> Goal {
     Goal { dims: vec![0, 1], at: vec![FAR * direction.cos(), FAR * direction.sin()], tolerance: 0.6 }
 }
 
+/// An agent that has learned nothing yet.
+fn untrained(config: &MpcConfig, env: &impl Environment, seed: Seed) -> Mpc {
+    let (width, actions) = (env.spec().observation.len(), env.spec().action.len());
+    let view: Arc<dyn View> = Arc::new(FreeBody::new(width, VELOCITY));
+    let mut rng = seed.stream("initialise", 0);
+    Mpc::new(view, actions, goal(0), config, Backend::default(), &mut rng)
+}
+
 /// An agent after its random episodes and its fit.
 fn trained(variant: &Variant, seed: Seed) -> Mpc {
     let mut env = arena(FREE_ARENA, WALK);
-    let (width, actions) = (env.spec().observation.len(), env.spec().action.len());
-    let view: Arc<dyn View> = Arc::new(FreeBody::new(width, VELOCITY));
     let config = MpcConfig { hold: variant.hold, epsilon: variant.epsilon, ..MpcConfig::default() };
-    let mut rng = seed.stream("initialise", 0);
-    let mut agent = Mpc::new(view, actions, goal(0), &config, Backend::default(), &mut rng);
+    let mut agent = untrained(&config, &env, seed);
     for number in 0..config.warm_up {
         let mut ctx = Context::training(seed, number);
         episode(&mut env, &mut agent, seed.number("train-start", number), &mut ctx, |_, _| {})

@@ -145,6 +145,8 @@ impl TabularDscConfig {
     /// Chapter 4 in the same worlds.
     fn robust() -> Self {
         let Self { memory, policy, chain, initiation, exploration, .. } = Self::default();
+        // One policy learns for all skills, so it learns twice as much.
+        let memory = MemoryConfig { updates_per_step: 2.0 * memory.updates_per_step, ..memory };
         Self {
             chain: ChainConfig { subgoals: Subgoals::DynamicProgramming, freeze: false, ..chain },
             initiation: InitiationConfig { sets: "dual".into(), ..initiation },

@@ -18,6 +18,7 @@ mod model_based;
 pub mod parts;
 mod proto;
 mod recurrent;
+mod robust;
 mod shared;
 mod suits;
 
@@ -67,6 +68,7 @@ pub type Build<O, A> = fn(&Spec, &Table, Backend, Seed) -> Result<BoxedAgent<O, 
 pub fn agents() -> impl Iterator<Item = &'static AgentEntry> {
     [
         chaining::ENTRIES,
+        robust::ENTRIES,
         deep_graphs::ENTRIES,
         graphs::ENTRIES,
         proto::ENTRIES,

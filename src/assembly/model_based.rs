@@ -31,7 +31,7 @@ pub(super) const ENTRIES: &[AgentEntry] = &[AgentEntry {
 /// In which frame the model reads states.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum Frame {
+pub(super) enum Frame {
     /// The body's own, where what is seen is a body's place, attitude and velocities; then the model knows no walls. Else
     /// the world's.
     #[default]
@@ -49,7 +49,7 @@ struct FlatMpcConfig {
 }
 
 /// How a model reads what this domain shows.
-fn view(spec: &Spec, frame: Frame) -> Arc<dyn View> {
+pub(super) fn view(spec: &Spec, frame: Frame) -> Arc<dyn View> {
     let dimensions = spec.observation.dimensions();
     let names: Vec<_> = dimensions.iter().map(|d| d.name.as_ref()).collect();
     let body = names.starts_with(&["x", "y", "z", "qw", "qx", "qy", "qz"]);

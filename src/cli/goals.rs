@@ -5,7 +5,7 @@ use std::path::Path;
 use inroads_discovery::record::{GoalRecord, GoalState, GraphRecord};
 use inroads_envs::Spec;
 
-use super::{Done, say::say};
+use super::{Done, say::say, table::table};
 use crate::{
     draw::{self, Questions},
     run::{Run, RunError},
@@ -89,16 +89,4 @@ fn of_vertices(graph: &GraphRecord, spec: &Spec) -> Vec<Vec<String>> {
 /// A number with two decimals, where it has any.
 fn number(x: f32) -> String {
     if x.fract() == 0.0 { format!("{x}") } else { format!("{x:.2}") }
-}
-
-/// Prints rows in columns as wide as they need; a column without words below its head is left out.
-fn table(rows: Vec<Vec<String>>) {
-    let columns = rows.first().map_or(0, Vec::len);
-    let wide = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let told = |column: &usize| rows.iter().skip(1).any(|row| !row[*column].is_empty());
-    let shown: Vec<(usize, usize)> = (0..columns).filter(told).map(|column| (column, wide(column))).collect();
-    for row in &rows {
-        let cells: Vec<_> = shown.iter().map(|&(column, wide)| format!("{:<wide$}", row[column])).collect();
-        say!("{}", format!("  {}", cells.join("   ")).trim_end());
-    }
 }

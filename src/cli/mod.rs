@@ -1,6 +1,7 @@
 //! The command line. Arguments are parsed here; each command is a file.
 
 mod certify;
+mod claims;
 mod evaluate;
 mod goals;
 mod list;
@@ -9,8 +10,11 @@ mod play;
 mod plot;
 mod progress;
 mod render;
+mod reproduce;
 mod say;
+mod table;
 mod train;
+mod truth;
 mod world;
 
 use std::{path::PathBuf, process::ExitCode};
@@ -67,6 +71,16 @@ enum Command {
     Render(render::Arguments),
     /// Play in the terminal
     Play(play::Arguments),
+    /// Make a figure of the thesis: do the runs that are not done, draw it, and say what it shows of the claims
+    Reproduce(reproduce::Arguments),
+    /// Show all claims with their verdicts, and what they cost
+    Claims {
+        /// The folder with a folder a figure
+        #[arg(long, default_value = reproduce::RESULTS)]
+        results: PathBuf,
+    },
+    /// Call each skill of a run from everywhere: where it succeeds, beside where its initiation set says that it may start
+    Truth(truth::Arguments),
     /// Find an environment's shortest solution, and how often random actions succeed
     Certify(certify::Arguments),
 }
@@ -97,6 +111,9 @@ pub fn main() -> ExitCode {
         Command::Plot { runs, out } => plot::plot(&runs, &out),
         Command::Render(arguments) => render::render(&arguments),
         Command::Play(arguments) => play::play(&arguments),
+        Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
+        Command::Claims { results } => claims::claims(&results),
+        Command::Truth(arguments) => truth::truth(&arguments),
         Command::Certify(arguments) => certify::certify(&arguments),
     };
     match done {

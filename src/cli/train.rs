@@ -10,7 +10,7 @@ use std::{
 
 use super::{Done, evaluate::report, plot::drawn, progress::Progress, world};
 use crate::{
-    config::{Config, ConfigError, Settings},
+    config::{Config, ConfigError},
     run::{Ended, Run},
 };
 
@@ -48,7 +48,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn train(arguments: &Arguments) -> Done {
-    let config = configure(arguments)?;
+    let config = Config::asked(&arguments.agent, &arguments.environment, |config| asked(config, arguments))?;
     let settings = &config.settings;
     let default = || format!("runs/{}-{}-{}", settings.agent, settings.environment, settings.seed).into();
     let path = arguments.out.clone().unwrap_or_else(default);
@@ -88,15 +88,7 @@ pub(super) fn train(arguments: &Arguments) -> Done {
     }
 }
 
-/// The defaults with what was asked for in their place. How the world is seen is among that, and some defaults depend on it.
-fn configure(arguments: &Arguments) -> Result<Config, ConfigError> {
-    let defaults = Config::defaults(&arguments.agent, &arguments.environment)?;
-    let world = asked(defaults.clone(), arguments)?.settings.world;
-    let Config { settings, agent } = defaults;
-    let fitted = Config { settings: Settings { world, ..settings }, agent }.fitted()?;
-    asked(fitted, arguments)
-}
-
+/// What was asked for in the place of what was there.
 fn asked(mut config: Config, arguments: &Arguments) -> Result<Config, ConfigError> {
     if let Some(file) = &arguments.config {
         config = config.with_file(file)?;
@@ -113,7 +105,7 @@ fn asked(mut config: Config, arguments: &Arguments) -> Result<Config, ConfigErro
 }
 
 fn assigned(config: Config, assignments: &[String]) -> Result<Config, ConfigError> {
-    assignments.iter().try_fold(config, |config, assignment| config.with_assignment(assignment))
+    config.with_assignments(assignments.iter().map(String::as_str))
 }
 
 /// A run goes on as it was begun: what is asked of it must not differ.

@@ -3,12 +3,15 @@
 mod goals;
 mod graph;
 mod skills;
+mod truth;
 
 pub use goals::Questions;
 pub use graph::{differ, feature_name, tried, whereabouts};
+pub use truth::truth;
 
 use std::path::Path;
 
+use inroads_discovery::SkillRecord;
 use inroads_envs::{maze::Picture, registry};
 
 use crate::{
@@ -55,23 +58,52 @@ impl View {
         Some(Self { picture, map })
     }
 
-    /// The initiation set of each skill of a run, without the key or with it; nothing with it where there is no key.
-    pub fn sets(&self, run: &Run, held: bool) -> Vec<Raster> {
-        if held && self.picture.key.is_none() {
+    /// The initiation set of each skill of a run, the robot at rest: where it may start.
+    pub fn sets(&self, run: &Run) -> Vec<Raster> {
+        self.rasters(run, |seen| run.session.members(seen))
+    }
+
+    /// The same with other features of what is seen changed, such as a key that it carries.
+    pub fn sets_where(&self, run: &Run, change: impl Fn(&mut [f32])) -> Vec<Raster> {
+        self.rasters(run, |seen| {
+            let mut seen = seen.clone();
+            change(&mut seen);
+            run.session.members(&seen)
+        })
+    }
+
+    /// The same with the key held; nothing where there is no key.
+    pub fn sets_with_key(&self, run: &Run) -> Vec<Raster> {
+        if self.picture.key.is_none() {
             return Vec::new();
         }
+        let holding = |seen: &Vec<f32>| self.picture.holding_at([seen[0], seen[1]].map(f64::from));
+        self.rasters(run, |seen| holding(seen).map_or_else(Vec::new, |seen| run.session.members(&seen)))
+    }
+
+    /// Where other skills may aim in order to enter the set of each skill of a run.
+    pub fn targets(&self, run: &Run) -> Vec<Raster> {
+        self.rasters(run, |seen| run.session.targets(seen))
+    }
+
+    /// What is said of all skills, everywhere.
+    fn rasters(&self, run: &Run, ask: impl Fn(&Vec<f32>) -> Vec<bool>) -> Vec<Raster> {
         let skills = run.session.skills().len();
         let mut rasters = vec![Raster { nx: RASTER, ny: RASTER, inside: Vec::new() }; skills];
         Raster::of(&self.map, RASTER, RASTER, |at| {
-            let at = at.map(f64::from);
-            let holding = held.then(|| self.picture.holding_at(at)).flatten();
-            let members = run.session.members(&holding.unwrap_or_else(|| self.picture.observation_at(at)));
-            for (raster, member) in rasters.iter_mut().zip(members) {
+            let said = ask(&self.picture.observation_at(at.map(f64::from)));
+            for (raster, member) in rasters.iter_mut().zip(said) {
                 raster.inside.push(member);
             }
             false
         });
         rasters
+    }
+
+    /// The least rectangle that holds all free space.
+    pub fn free(&self) -> Rect {
+        let Rect { min, max } = self.map.bounds;
+        Rect { min: min.map(|x| x + BORDER), max: max.map(|x| x - BORDER) }
     }
 }
 
@@ -94,8 +126,16 @@ pub fn figures(run: &mut Run, frozen: &[Watched]) -> Result<(), RunError> {
         .take(TRAJECTORIES)
         .map(|w| Trajectory { points: w.acted().map(|(s, skill)| ([s[0], s[1]], skill)).collect() })
         .collect();
-    figures::trajectories(folder.join("trajectories.png"), &view.map, &trajectories)?;
+    figures::trajectories(folder.join("trajectories.png"), &view.map, &trajectories, "")?;
     Ok(())
+}
+
+/// What stands above the picture of a skill.
+fn title(skill: &SkillRecord) -> String {
+    match skill.enters {
+        None => format!("skill {} → reaches the goal", skill.skill),
+        Some(parent) => format!("skill {} → enters skill {parent}", skill.skill),
+    }
 }
 
 /// Draws the learning curves of runs, those of one agent together.
@@ -130,7 +170,7 @@ pub fn curves(runs: &[Run], path: &Path) -> Result<(), RunError> {
         summary,
         smoothing: SMOOTHING,
         series,
-        levels: Vec::new(),
+        ..Panel::default()
     };
     let environment = runs.first().map_or("", |run| run.config.settings.environment.as_str());
     figures::curves(

@@ -23,10 +23,10 @@ pub(super) fn sets(run: &Run, view: &View) -> Result<(), RunError> {
     most.truncate(SETS);
     most.sort_unstable();
     let path = run.folder.figures().join("initiation-sets.png");
-    let (without, with) = (view.sets(run, false), view.sets(run, true));
+    let (without, with) = (view.sets(run), view.sets_with_key(run));
     let covers = |region: &Raster| 100.0 * region.share_of_free_space(&view.map);
     let picture = |i: usize, region: &Raster, subtitle: String| SetPicture {
-        title: title(&skills[i]),
+        title: super::title(&skills[i]),
         subtitle,
         colour: skills[i].skill as usize,
         region: region.clone(),
@@ -35,7 +35,7 @@ pub(super) fn sets(run: &Run, view: &View) -> Result<(), RunError> {
     let plain = |i: usize| format!("covers {:.0} % of free space", covers(&without[i]));
     if with.is_empty() {
         let pictures: Vec<_> = most.iter().map(|&i| picture(i, &without[i], plain(i))).collect();
-        figures::sets(path, &view.map, &pictures)?;
+        figures::sets(path, &view.map, &pictures, "")?;
         return Ok(());
     }
     let lacking = most
@@ -46,22 +46,15 @@ pub(super) fn sets(run: &Run, view: &View) -> Result<(), RunError> {
         picture(i, &with[i], format!("with the key: {:.0} %; overlap {both:.0} %", covers(&with[i])))
     });
     let pictures: Vec<_> = lacking.chain(holding).collect();
-    figures::sets_in_columns(path, &view.map, &pictures, most.len())?;
+    figures::sets_in_columns(path, &view.map, &pictures, most.len(), "")?;
     Ok(())
-}
-
-fn title(skill: &SkillRecord) -> String {
-    match skill.enters {
-        None => format!("skill {} → reaches the goal", skill.skill),
-        Some(parent) => format!("skill {} → enters skill {parent}", skill.skill),
-    }
 }
 
 /// Draws which skill enters which: a vertex in the middle of each initiation set, an arrow to the set that it enters.
 pub(super) fn tree(run: &Run, view: &View) -> Result<(), RunError> {
     let skills = run.session.skills();
     let Some((goal, _)) = view.map.goal.filter(|_| !skills.is_empty()) else { return Ok(()) };
-    let (without, with) = (view.sets(run, false), view.sets(run, true));
+    let (without, with) = (view.sets(run), view.sets_with_key(run));
     let middle = |i: usize| {
         let without = without[i].middle(&view.map);
         without.or_else(|| with.get(i).and_then(|held| held.middle(&view.map)))

@@ -36,6 +36,26 @@ impl Span {
         (value - self.low) / (self.high - self.low)
     }
 
+    /// The powers of ten in a span of their exponents, each exponent with the power's label; halves of what is too short for
+    /// two of them.
+    pub(super) fn powers(self) -> Vec<(f64, String)> {
+        let exponents = |parts: &[f64]| -> Vec<(f64, String)> {
+            let (first, last) = (self.low.floor() as i32, self.high.ceil() as i32);
+            let all = (first..=last).flat_map(|power| parts.iter().map(move |part| (power, *part)));
+            let inside = all.filter(|(power, part)| {
+                let exponent = f64::from(*power) + part.log10();
+                (self.low - 1e-9..=self.high + 1e-9).contains(&exponent)
+            });
+            inside.map(|(power, part)| (f64::from(power) + part.log10(), power_label(power, part))).collect()
+        };
+        let whole = exponents(&[1.0]);
+        match whole.len() {
+            0 | 1 => exponents(&[1.0, 2.0, 5.0]),
+            // More than an axis has room for: every so manyeth.
+            many => whole.into_iter().step_by(many.div_ceil(8)).collect(),
+        }
+    }
+
     /// About `wanted` round numbers in the span, each with its label.
     pub(super) fn ticks(self, wanted: f64) -> Vec<(f64, String)> {
         let step = round_step((self.high - self.low) / wanted.max(1.0));
@@ -50,6 +70,15 @@ impl Span {
                 (value, label(value, step))
             })
             .collect()
+    }
+}
+
+/// A digit times a power of ten, as it stands beside a tick.
+fn power_label(power: i32, digit: f64) -> String {
+    match power {
+        -3..=-1 => format!("{:.*}", power.unsigned_abs() as usize, digit * 10f64.powi(power)),
+        0..=3 => format!("{:.0}", digit * 10f64.powi(power)),
+        _ => format!("{digit}e{power}").replace('-', "−"),
     }
 }
 
@@ -104,6 +133,17 @@ mod tests {
         assert_eq!(labels(0.0, 1.0, 4.0), ["0", "0.25", "0.50", "0.75", "1.00"]);
         assert_eq!(labels(-1000.0, 0.0, 4.0), ["−1000", "−750", "−500", "−250", "0"]);
         assert_eq!(labels(-3.0, 3.0, 3.0), ["−2", "0", "2"]);
+    }
+
+    #[test]
+    fn powers_of_ten_have_their_labels() {
+        let labels = |low, high| -> Vec<String> {
+            Span { low, high }.powers().into_iter().map(|(_, label)| label).collect()
+        };
+        assert_eq!(labels(-4.2, 0.1), ["1e−4", "0.001", "0.01", "0.1", "1"]);
+        assert_eq!(labels(-0.8, 0.0), ["0.2", "0.5", "1"]);
+        assert_eq!(Span { low: -1.0, high: 0.5 }.powers()[0], (-1.0, "0.1".to_owned()));
+        assert!(labels(-300.0, 300.0).len() <= 8);
     }
 
     #[test]

@@ -20,8 +20,12 @@ pub struct Panel {
     pub x_label: String,
     /// Stands left of the chart, reading upwards.
     pub y_label: String,
+    /// The ends of the x axis; without it, the smallest and largest place of all seeds, or 0 where that is near.
+    pub x_range: Option<(f64, f64)>,
     /// The ends of the y axis; without it, the smallest and largest value of all seeds.
     pub y_range: Option<(f64, f64)>,
+    /// Whether the y axis is one of logarithms; what is not above 0 lies below it.
+    pub log: bool,
     /// What the bold line and the band are.
     pub summary: Summary,
     /// Each value is averaged with the ones before it, over this many points; 0 and 1 leave it as it is.
@@ -50,6 +54,15 @@ pub struct Level {
     pub label: String,
     /// The value.
     pub y: f64,
+}
+
+/// How panels lie on a sheet, and what else stands below them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Sheet {
+    /// Panels in a row, at least 1.
+    pub columns: usize,
+    /// A remark, such as which runs are missing; may be empty.
+    pub remark: String,
 }
 
 const MARGIN: f32 = 18.0;
@@ -82,15 +95,24 @@ const TALL: f32 = 400.0;
 /// # Ok::<(), inroads::figures::FigureError>(())
 /// ```
 pub fn curves(path: impl AsRef<Path>, panels: &[Panel]) -> Result<(), FigureError> {
+    let columns = if panels.len() == 4 { 2 } else { panels.len().min(3) };
+    curves_on(path, panels, &Sheet { columns, remark: String::new() })
+}
+
+/// The same on a sheet of one's own.
+pub fn curves_on(path: impl AsRef<Path>, panels: &[Panel], sheet: &Sheet) -> Result<(), FigureError> {
     let path = path.as_ref();
     if panels.is_empty() {
         return Err(FigureError::Nothing { path: path.to_owned(), what: "a chart needs at least one panel" });
     }
-    let columns = if panels.len() == 4 { 2 } else { panels.len().min(3) };
+    let columns = sheet.columns.clamp(1, panels.len());
     let rows = panels.len().div_ceil(columns);
     let width = if columns == 1 { 820.0 } else { 1400.0 };
     let inner = width - 2.0 * MARGIN;
-    let (entries, note) = (caption::entries(panels), caption::note(panels));
+    let (entries, mut note) = (caption::entries(panels), caption::note(panels));
+    if !sheet.remark.is_empty() {
+        note += &format!(" · {}", sheet.remark);
+    }
     let legend_height = legend::height(&entries, inner);
     let below = MARGIN + rows as f32 * (TALL + GUTTER) - GUTTER + 12.0;
     let height = below + legend_height + 6.0 + legend::note_height(&note, inner) + MARGIN - 4.0;
@@ -126,17 +148,25 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, area: Area) {
         .collect();
     let points = || drawn.iter().flat_map(|series| series.runs.iter().flatten());
     let empty = points().next().is_none();
-    let mut x_span = Span::of(points().map(|point| point.0)).unwrap_or(Span { low: 0.0, high: 1.0 });
+    let given = panel.x_range.and_then(|(low, high)| Span::of([low, high]));
+    let found = || Span::of(points().map(|point| point.0)).unwrap_or(Span { low: 0.0, high: 1.0 });
+    let mut x_span = given.unwrap_or_else(found);
     if x_span.low > 0.0 && x_span.low < 0.25 * x_span.high {
         x_span.low = 0.0;
     }
-    let given = panel.y_range.and_then(|(low, high)| Span::of([low, high]));
+    // Where a value stands along the axis: itself or its logarithm, which puts 0 below everything.
+    let height = |y: f64| if panel.log { y.max(0.0).log10() } else { y };
+    let given = panel.y_range.and_then(|(low, high)| Span::of([low, high].map(height)));
     let levels = panel.levels.iter().map(|level| level.y);
-    let y_span = given.or_else(|| Span::of(points().map(|point| point.1).chain(levels)));
+    let y_span = given.or_else(|| Span::of(points().map(|point| point.1).chain(levels).map(height)));
     let (x_span, y_span) =
         (x_span.opened(), y_span.unwrap_or(Span { low: 0.0, high: 1.0 }).opened().padded(0.03));
 
-    let y_ticks = if empty { Vec::new() } else { y_span.ticks(5.0) };
+    let y_ticks = match panel.log {
+        _ if empty => Vec::new(),
+        true => y_span.powers(),
+        false => y_span.ticks(5.0),
+    };
     let widest =
         y_ticks.iter().map(|(_, label)| text::width(label, TICK, Weight::Regular)).fold(0.0, f32::max);
     let left = LABEL + 14.0 + widest + 8.0;
@@ -152,12 +182,12 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, area: Area) {
     canvas.text_upwards(&label, (area.x + LABEL, plot.y + plot.h / 2.0), Font::plain(size));
 
     let at = |x: f64, y: f64| {
-        let (x, y) = (x_span.part(x) as f32, y_span.part(y) as f32);
+        let (x, y) = (x_span.part(x) as f32, y_span.part(height(y)) as f32);
         // Far outside is as good as outside, and keeps huge bands from overflowing the rasteriser.
         (plot.x + x * plot.w, plot.bottom() - y.clamp(-5.0, 6.0) * plot.h)
     };
     let x_ticks = if empty { Vec::new() } else { x_span.ticks(f64::from(plot.w / 95.0)) };
-    draw_axes(canvas, plot, &x_ticks, &y_ticks, at, (x_span, y_span));
+    draw_axes(canvas, plot, (&x_ticks, x_span), (&y_ticks, y_span));
     canvas.clipped(plot.grown(1.5), |canvas| draw_curves(canvas, panel, &drawn, plot, at));
     if empty {
         let font = Font::plain(LABEL).coloured(SOFT);
@@ -165,22 +195,21 @@ fn draw_panel(canvas: &mut Canvas, panel: &Panel, area: Area) {
     }
 }
 
-fn draw_axes(
+/// Ticks and grid lines of a plot; the places along the axes are spans' own.
+pub(super) fn draw_axes(
     canvas: &mut Canvas,
     plot: Area,
-    x_ticks: &[(f64, String)],
-    y_ticks: &[(f64, String)],
-    at: impl Fn(f64, f64) -> (f32, f32),
-    (x_span, y_span): (Span, Span),
+    (x_ticks, x_span): (&[(f64, String)], Span),
+    (y_ticks, y_span): (&[(f64, String)], Span),
 ) {
     let font = Font::plain(TICK).coloured(SOFT);
     for (value, label) in y_ticks {
-        let y = at(x_span.low, *value).1.round() + 0.5;
+        let y = (plot.bottom() - y_span.part(*value) as f32 * plot.h).round() + 0.5;
         canvas.line(&[(plot.x, y), (plot.right(), y)], GRID, 1.0);
         canvas.text(label, (plot.x - 8.0, y + TICK * 0.36), Align::Right, font);
     }
     for (value, label) in x_ticks {
-        let x = at(*value, y_span.low).0.round() + 0.5;
+        let x = (plot.x + x_span.part(*value) as f32 * plot.w).round() + 0.5;
         canvas.line(&[(x, plot.bottom()), (x, plot.bottom() + 5.0)], INK, 1.2);
         canvas.text(label, (x, plot.bottom() + TICK + 9.0), Align::Centre, font);
     }

@@ -33,10 +33,10 @@ const NOTE: f32 = 13.0;
 /// A cell's side.
 const SIDE: f32 = 17.0;
 /// Width of the bar that says which colour is which number.
-const BAR: f32 = 240.0;
+pub(super) const BAR: f32 = 240.0;
 
 /// The colour of a number: white is 0, dark blue 1.
-fn shade(value: f64) -> Colour {
+pub(super) fn shade(value: f64) -> Colour {
     let part = value.clamp(0.0, 1.0) as f32;
     let full = colour(1).rgb;
     let mix = |i: usize| (255.0 + (f32::from(full[i]) - 255.0) * part).round() as u8;
@@ -76,7 +76,7 @@ pub fn heat(path: impl AsRef<Path>, grids: &[Heat], across: usize, caption: &str
 }
 
 /// The colours from 0 to 1.
-fn bar(canvas: &mut Canvas, x: f32, y: f32) {
+pub(super) fn bar(canvas: &mut Canvas, x: f32, y: f32) {
     const STEPS: u8 = 20;
     for step in 0..STEPS {
         let w = BAR / f32::from(STEPS);

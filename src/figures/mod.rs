@@ -6,6 +6,7 @@
 //! | function | file | in the thesis |
 //! |---|---|---|
 //! | [`curves`] | PNG, learning curves with every seed drawn | figure 3.1 |
+//! | [`dots()`] | PNG, a dot a seed and their mean with its interval | figure 4.4 |
 //! | [`sets()`] | PNG, one panel a skill: where its initiation set is | figure 3.2 |
 //! | [`trajectories`] | PNG, paths coloured by the option that acted | figure 3.3 |
 //! | [`graph()`] | PNG, a graph of skills on a map, a picture of the world, a lattice, or in layers | figures 6.4, 7.4 |
@@ -13,6 +14,7 @@
 //! | [`kept_features`] | PNG, a table of abstract subgoals and the features that they keep | section 9.2.3 |
 //! | [`reliability()`] | PNG, predicted against measured probabilities | |
 //! | [`movie()`] | GIF, the robot in its maze seen from above, coloured by the option that acts | |
+//! | [`beliefs`] | PNG, two panels a skill: its sets, and where it succeeds | figure 4.5 |
 //! | [`heat()`] | PNG, grids of cells: truth beside belief | |
 //! | [`film()`], [`still`] | GIF and PNG of frames that somebody else drew | |
 //!
@@ -28,9 +30,11 @@
 
 mod animation;
 mod axis;
+mod belief;
 mod canvas;
 mod caption;
 mod chart;
+mod dots;
 mod error;
 mod film;
 mod goal_space;
@@ -52,7 +56,9 @@ mod tests;
 mod text;
 mod trajectory;
 
-pub use chart::{Level, Panel, Series, curves};
+pub use belief::{Belief, Patch, beliefs};
+pub use chart::{Level, Panel, Series, Sheet, curves, curves_on};
+pub use dots::{Column, Dots, dots};
 pub use error::FigureError;
 pub use film::{film, still};
 pub use goal_space::{GoalPanel, GoalSquare, goal_space};

@@ -13,6 +13,9 @@ const REACH: [f32; 4] = [-1.5, -0.5, 0.5, 1.5];
 /// How much darker the rim of a region is.
 const RIM: f32 = 0.45;
 
+/// The same of a rim alone.
+const OUTLINE: f32 = 0.9;
+
 /// Yes or no at `nx` × `ny` evenly spaced points of a map's bounds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Raster {
@@ -81,6 +84,16 @@ impl Raster {
 
     /// Colours the inside, with a smooth edge and a darker rim. The raster must have all its values.
     pub(super) fn draw(&self, canvas: &mut Canvas, view: &View, colour: Colour) {
+        self.shade(canvas, view, colour, [maze::INSIDE, RIM]);
+    }
+
+    /// Draws the rim alone.
+    pub(super) fn outline(&self, canvas: &mut Canvas, view: &View, colour: Colour) {
+        self.shade(canvas, view, colour, [0.0, OUTLINE]);
+    }
+
+    /// Colours inside and rim so strongly.
+    fn shade(&self, canvas: &mut Canvas, view: &View, colour: Colour, [inside, strong]: [f32; 2]) {
         if self.inside.is_empty() {
             return;
         }
@@ -99,8 +112,8 @@ impl Raster {
                 let sum: f32 = near.map(|(px, py)| self.between(px * cells_x, py * cells_y)).sum();
                 let deep = (sum / (REACH.len() * REACH.len()) as f32 - 0.5) * slope;
                 let cover = (deep + 0.5).clamp(0.0, 1.0);
-                let rim = (2.2 - deep.abs()).clamp(0.0, 1.0) * RIM;
-                let alpha = cover * (maze::INSIDE + rim);
+                let rim = (2.2 - deep.abs()).clamp(0.0, 1.0) * strong;
+                let alpha = cover * (inside + rim);
                 let pixel = &mut pixels.pixels_mut()[(y * width + x) as usize];
                 *pixel = blend(*pixel, colour, alpha);
             }

@@ -32,10 +32,10 @@ const MARGIN: f32 = 18.0;
 const GAP: f32 = 28.0;
 const HEAD: f32 = 54.0;
 
-/// Draws one panel a skill as one PNG. Without any skill it shows the bare map.
-pub fn sets(path: impl AsRef<Path>, map: &Map, sets: &[SetPicture]) -> Result<(), FigureError> {
+/// Draws one panel a skill as one PNG, and a remark below. Without any skill it shows the bare map.
+pub fn sets(path: impl AsRef<Path>, map: &Map, sets: &[SetPicture], note: &str) -> Result<(), FigureError> {
     let rows = sets.len().max(1).div_ceil(5);
-    sets_in_columns(path, map, sets, sets.len().max(1).div_ceil(rows))
+    sets_in_columns(path, map, sets, sets.len().max(1).div_ceil(rows), note)
 }
 
 /// The same with so many panels a row (at least 1): one a skill, say, and a row for each case (figure 3.2).
@@ -44,6 +44,7 @@ pub fn sets_in_columns(
     map: &Map,
     sets: &[SetPicture],
     columns: usize,
+    note: &str,
 ) -> Result<(), FigureError> {
     let (path, columns) = (path.as_ref(), columns.max(1));
     map.check(path)?;
@@ -68,9 +69,11 @@ pub fn sets_in_columns(
     let width = 2.0 * MARGIN + columns as f32 * (wide + GAP) - GAP;
     let entries = entries(map, sets);
     let below = MARGIN + rows as f32 * (tall + GAP) - GAP + 14.0;
-    let legend_height = legend::height(&entries, width - 2.0 * MARGIN);
+    let inner = width - 2.0 * MARGIN;
+    let legend_height = legend::height(&entries, inner);
+    let height = below + legend_height + legend::note_height(note, inner) + MARGIN - 6.0;
 
-    let mut canvas = Canvas::new(path, width, below + legend_height + MARGIN - 6.0)?;
+    let mut canvas = Canvas::new(path, width, height)?;
     for (row, in_row) in shown.chunks(columns).enumerate() {
         for (column, set) in in_row.iter().enumerate() {
             let x = MARGIN + column as f32 * (wide + GAP);
@@ -78,7 +81,8 @@ pub fn sets_in_columns(
             draw(&mut canvas, map, set, Area { x, y, w: wide, h: tall });
         }
     }
-    legend::draw(&mut canvas, &entries, width / 2.0, below, width - 2.0 * MARGIN);
+    legend::draw(&mut canvas, &entries, width / 2.0, below, inner);
+    legend::draw_note(&mut canvas, note, width / 2.0, below + legend_height, inner);
     canvas.save(path)
 }
 

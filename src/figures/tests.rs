@@ -129,7 +129,7 @@ fn sets_colour_the_inside_and_leave_the_walls_grey() {
         positives: vec![[1.0, 0.0], [f32::NAN, 0.0]],
         negatives: vec![[8.0, 4.0], [1e30, -1e30]],
     };
-    sets(&scratch.0, &map, &[picture(1, true), picture(2, false)]).unwrap();
+    sets(&scratch.0, &map, &[picture(1, true), picture(2, false)], "").unwrap();
     let ([width, height], pixels) = read_png(&scratch);
     assert_eq!((width, pixels.len()), (864, (width * height) as usize));
     let colours: HashSet<_> = pixels.iter().collect();
@@ -176,7 +176,7 @@ fn regions_overlap_by_cells_and_have_their_middle_inside() {
 fn a_key_is_a_blue_disc_where_there_is_one() {
     let scratch = Scratch::new("key.png");
     for key in [None, Some([8.0, 4.0])] {
-        sets(&scratch.0, &Map { key, ..u_maze() }, &[]).unwrap();
+        sets(&scratch.0, &Map { key, ..u_maze() }, &[], "").unwrap();
         assert_eq!(has(&read_png(&scratch).1, palette::KEY), key.is_some());
     }
 }
@@ -194,13 +194,13 @@ fn trajectories_have_the_colour_of_the_acting_skill_and_y_upwards() {
     let broken = vec![([0.0, 0.0], 0), ([f32::NAN, 0.0], 0), ([1e30, 1e30], 1), ([0.0, 1.0], 2)];
     let paths =
         [Trajectory { points: points.collect() }, Trajectory { points: broken }, Trajectory::default()];
-    trajectories(&scratch.0, &u_maze(), &paths).unwrap();
+    trajectories(&scratch.0, &u_maze(), &paths, "of seed 3").unwrap();
     let ([width, height], pixels) = read_png(&scratch);
     assert!(width == 676 && height > width);
     assert!(has(&pixels, palette::colour(0)) && has(&pixels, palette::colour(3)));
     let crowd = |skills: usize| {
         let points = (0..skills).map(|skill| ([skill as f32 * 0.1, 0.0], skill)).collect();
-        trajectories(&scratch.0, &u_maze(), &[Trajectory { points }]).unwrap();
+        trajectories(&scratch.0, &u_maze(), &[Trajectory { points }], "").unwrap();
         read_png(&scratch).0[1]
     };
     assert!(crowd(15) > crowd(14) && crowd(15) == crowd(90), "the legend names some and counts the others");
@@ -212,8 +212,8 @@ fn trajectories_have_the_colour_of_the_acting_skill_and_y_upwards() {
 #[test]
 fn no_skill_and_no_trajectory_leave_the_bare_map() {
     let (one, other) = (Scratch::new("none-1.png"), Scratch::new("none-2.png"));
-    sets(&one.0, &u_maze(), &[]).unwrap();
-    trajectories(&other.0, &u_maze(), &[]).unwrap();
+    sets(&one.0, &u_maze(), &[], "").unwrap();
+    trajectories(&other.0, &u_maze(), &[], "").unwrap();
     for scratch in [one, other] {
         let (_, pixels) = read_png(&scratch);
         assert!(has(&pixels, palette::WALL) && has(&pixels, palette::GOAL));
@@ -278,7 +278,7 @@ fn the_same_data_give_the_same_bytes() {
 fn errors_name_the_file_and_the_reason() {
     let map = u_maze();
     let missing = std::env::temp_dir().join("inroads-no-such-folder").join("figure.png");
-    let error = trajectories(&missing, &map, &[]).unwrap_err();
+    let error = trajectories(&missing, &map, &[], "").unwrap_err();
     assert!(matches!(error, FigureError::Write { .. }));
     assert!(error.to_string().contains("inroads-no-such-folder"), "{error}");
 
@@ -286,14 +286,14 @@ fn errors_name_the_file_and_the_reason() {
     assert!(movie(&missing, &map, &[]).unwrap_err().to_string().contains("at least one frame"));
     for max in [[-6.0, 14.0], [f32::NAN, 14.0], [f32::INFINITY, 14.0]] {
         let flat = Map { bounds: Rect { min: [-6.0, -6.0], max }, ..map.clone() };
-        assert!(matches!(sets(&missing, &flat, &[]), Err(FigureError::Bounds { .. })));
+        assert!(matches!(sets(&missing, &flat, &[], ""), Err(FigureError::Bounds { .. })));
     }
     let short = Raster { nx: 3, ny: 3, inside: vec![true; 8] };
     let picture = SetPicture { title: "skill 7".into(), region: short, ..SetPicture::default() };
-    let error = sets(&missing, &map, &[picture]).unwrap_err().to_string();
+    let error = sets(&missing, &map, &[picture], "").unwrap_err().to_string();
     assert!(error.contains("skill 7") && error.contains("8 values for 3 × 3"), "{error}");
     let crowd = vec![SetPicture::default(); 1000];
-    assert!(matches!(sets(&missing, &map, &crowd), Err(FigureError::Size { .. })));
+    assert!(matches!(sets(&missing, &map, &crowd, ""), Err(FigureError::Size { .. })));
 }
 
 #[test]

@@ -24,11 +24,12 @@ const WIDTH: f32 = 640.0;
 /// Skills that the legend names; more, no reader tells apart by colour.
 const NAMED: usize = 14;
 
-/// Draws all trajectories on one map, as one PNG, with a legend of the skills that acted.
+/// Draws all trajectories on one map, as one PNG, with a legend of the skills that acted and a remark below.
 pub fn trajectories(
     path: impl AsRef<Path>,
     map: &Map,
     trajectories: &[Trajectory],
+    note: &str,
 ) -> Result<(), FigureError> {
     let path = path.as_ref();
     map.check(path)?;
@@ -39,11 +40,13 @@ pub fn trajectories(
     let named =
         skills.iter().take(NAMED).map(|skill| Entry::new(Mark::Line(colour(*skill)), skill_name(*skill)));
     let entries: Vec<Entry> = named.chain(places(map)).collect();
-    let note = match skills.len().saturating_sub(NAMED) {
+    let unnamed = match skills.len().saturating_sub(NAMED) {
         0 => String::new(),
         1 => "and another skill".to_owned(),
         more => format!("and {more} more skills"),
     };
+    let note =
+        [unnamed.as_str(), note].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" · ");
 
     let tall = WIDTH * map.shape();
     let below = MARGIN + tall + 12.0;

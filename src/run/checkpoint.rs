@@ -86,6 +86,13 @@ pub(super) fn list(folder: &Path) -> Result<Vec<PathBuf>, RunError> {
     Ok(files)
 }
 
+/// Removes all but the newest.
+pub(super) fn keep_newest(folder: &Path) -> Result<(), RunError> {
+    let all = list(folder)?;
+    let older = &all[..all.len().saturating_sub(1)];
+    older.iter().try_for_each(|file| fs::remove_file(file).map_err(RunError::io("remove", file)))
+}
+
 /// Removes the checkpoints that were written after so many episodes: a run that goes on from there has none of them.
 pub(super) fn remove_after(folder: &Path, episodes: u64) -> Result<(), RunError> {
     let written = |path: &Path| path.file_stem()?.to_str()?.parse::<u64>().ok();

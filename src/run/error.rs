@@ -114,9 +114,23 @@ pub enum RunError {
     /// There is no skill to act with.
     #[error("this run's agent has no learned skill to act with; leave --chain-alone out")]
     NoSkills,
+    /// There is no skill that could be called.
+    #[error(
+        "agent `{agent}` has no skill after {episodes} episodes that could be called from a place; agents that chain skills have \
+         some once they have learned them (`inroads list` says which; --resume trains further)"
+    )]
+    NoCalls {
+        /// The agent.
+        agent: String,
+        /// Episodes of training.
+        episodes: u64,
+    },
     /// An environment that cannot be drawn.
     #[error("`{0}` has no map to draw on")]
     NoMap(String),
+    /// An experiment is at fault.
+    #[error(transparent)]
+    Evidence(#[from] crate::evidence::EvidenceError),
     /// A picture could not be drawn.
     #[error(transparent)]
     Figure(#[from] crate::figures::FigureError),

@@ -10,7 +10,7 @@ use inroads_agents::Bag;
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::json;
 
-use super::{Growth, RunError, TestMetrics, checkpoint};
+use super::{Growth, RunError, Summary, TestMetrics, checkpoint};
 use crate::{config::Config, session::EpisodeMetrics};
 
 /// A run's folder.
@@ -41,7 +41,10 @@ impl Folder {
     }
 
     /// The folder of a run that there is.
-    pub(super) fn open(path: &Path) -> Result<Self, RunError> {
+    ///
+    /// # Errors
+    /// [`RunError::NoRun`] when there is none.
+    pub fn open(path: &Path) -> Result<Self, RunError> {
         let folder = Self { path: path.to_owned() };
         if folder.config().is_file() { Ok(folder) } else { Err(RunError::NoRun(path.to_owned())) }
     }
@@ -84,6 +87,11 @@ impl Folder {
     /// The pictures.
     pub fn figures(&self) -> PathBuf {
         self.path.join("figures")
+    }
+
+    /// Where its skills succeed, beside where their sets say so; not there until somebody asks.
+    pub fn truth(&self) -> PathBuf {
+        self.path.join("truth.json")
     }
 
     /// What the run came to.
@@ -185,6 +193,20 @@ impl Folder {
     /// [`RunError::Io`] when the file cannot be read or a line is not ours.
     pub fn read_metrics(&self) -> Result<Vec<EpisodeMetrics>, RunError> {
         read_lines(&self.metrics())
+    }
+
+    /// What the run came to.
+    ///
+    /// # Errors
+    /// [`RunError::Io`] when it is not done, or the file is not ours.
+    pub fn read_summary(&self) -> Result<Summary, RunError> {
+        let text = fs::read_to_string(self.summary()).map_err(RunError::io("read", &self.summary()))?;
+        serde_json::from_str(&text).map_err(|why| RunError::io("read", &self.summary())(why.into()))
+    }
+
+    /// Removes all checkpoints but the newest: a run that is done goes back nowhere.
+    pub(crate) fn keep_newest(&self) -> Result<(), RunError> {
+        checkpoint::keep_newest(&self.checkpoints())
     }
 
     /// Seconds of training, over all sessions.

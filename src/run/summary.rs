@@ -211,8 +211,8 @@ impl Run {
 
     fn sets(&self, frozen: &[Watched]) -> Vec<SetSummary> {
         let view = View::of(&self.config.settings);
-        let sets = |held| view.iter().flat_map(move |view| view.sets(self, held)).collect::<Vec<_>>();
-        let (without, with) = (sets(false), sets(true));
+        let (without, with) =
+            view.as_ref().map(|view| (view.sets(self), view.sets_with_key(self))).unwrap_or_default();
         let area = |raster: &Raster| view.as_ref().map(|view| raster.share_of_free_space(&view.map));
         let skills = self.session.skills().into_iter().enumerate();
         skills

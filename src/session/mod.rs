@@ -1,5 +1,6 @@
 //! An agent in an environment, whatever their kinds.
 
+mod attempt;
 mod pair;
 mod spot;
 #[cfg(test)]
@@ -8,6 +9,7 @@ pub(crate) mod stub;
 mod tests;
 mod travel;
 
+pub use attempt::Attempt;
 pub use spot::{PlanError, Spot};
 pub use travel::Travelled;
 
@@ -20,7 +22,7 @@ use inroads_envs::{
 };
 use serde::{Deserialize, Serialize};
 
-use self::pair::{Pair, Seen};
+use self::{attempt::Kind, pair::Pair};
 use crate::{
     assembly::{self, AgentEntry, Build, Vector},
     config::{Config, ConfigError, Settings, World},
@@ -164,6 +166,24 @@ pub trait Session {
 
     /// Of all skills: whether the observation is in its initiation set. Nothing where agents see other things than vectors.
     fn members(&self, observation: &Vector) -> Vec<bool>;
+
+    /// Of all skills: whether another skill may aim at the observation in order to enter its initiation set. Nothing where agents
+    /// see other things than vectors.
+    fn targets(&self, observation: &Vector) -> Vec<bool>;
+
+    /// Calls a learned skill once, frozen and without noise, where the episode that `start` names begins in an environment of the
+    /// same kind; the random streams are those that `index` names. None when there is no such skill, skills cannot be called one
+    /// by one, or the environment is of another kind. Neither the agent nor the session's environment changes.
+    ///
+    /// # Errors
+    /// [`Stopped`] at an action that was refused.
+    fn attempt(
+        &self,
+        skill: u32,
+        env: &mut AnyEnvironment,
+        start: u64,
+        index: u64,
+    ) -> Result<Option<Attempt>, Stopped>;
 
     /// The agent's skill graph, if it has one.
     fn graph(&self) -> Option<GraphRecord>;
@@ -348,7 +368,7 @@ pub fn pictured(
 pub type BoxedEnvironment<O, A> = Box<dyn Environment<Observation = O, Action = A> + Send>;
 
 /// A session of somebody's own environments, which are evaluated in where they are trained in.
-fn own<O: Seen + 'static, A: Clone + Into<Action> + 'static>(
+fn own<O: Kind<A> + 'static, A: Clone + Into<Action> + 'static>(
     training: Vec<BoxedEnvironment<O, A>>,
     config: &Config,
     of: fn(&AgentEntry) -> Option<Build<O, A>>,
@@ -361,7 +381,7 @@ fn own<O: Seen + 'static, A: Clone + Into<Action> + 'static>(
     Lanes { training, evaluation: None }.pair(config, of)
 }
 
-impl<O: Seen + 'static, A: Clone + Into<Action> + 'static> Lanes<BoxedEnvironment<O, A>> {
+impl<O: Kind<A> + 'static, A: Clone + Into<Action> + 'static> Lanes<BoxedEnvironment<O, A>> {
     /// The session of these environments and the configuration's agent.
     fn pair(
         self,

@@ -4,11 +4,14 @@ use std::collections::BTreeMap;
 
 use inroads_agents::{Actor, Bag, Context, Corrupt, Halt, Summary, Transition, episode, lanes::Alone, round};
 use inroads_discovery::record::{GoalRecord, GraphRecord, PlanRecord, Query, SkillRecord};
-use inroads_envs::{Annotated, Frame, Seed, Spec, check::Observed};
+use inroads_envs::{Annotated, Frame, Seed, Spec, check::Observed, registry::AnyEnvironment};
 
 use super::{
-    Action, BoxedEnvironment, EpisodeMetrics, PlanError, Protocol, Session, Spot, Stopped, Travelled,
-    Watched, spot::Located, travel::Journey,
+    Action, Attempt, BoxedEnvironment, EpisodeMetrics, PlanError, Protocol, Session, Spot, Stopped,
+    Travelled, Watched,
+    attempt::{Kind, attempt},
+    spot::Located,
+    travel::Journey,
 };
 use crate::assembly::{BoxedAgent, Vector};
 
@@ -87,7 +90,7 @@ impl<O: Seen, A: Clone> Pair<O, A> {
     }
 }
 
-impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
+impl<O: Kind<A>, A: Clone + Into<Action>> Session for Pair<O, A> {
     fn spec(&self) -> &Spec {
         self.envs[0].spec()
     }
@@ -194,6 +197,22 @@ impl<O: Seen, A: Clone + Into<Action>> Session for Pair<O, A> {
 
     fn members(&self, observation: &Vector) -> Vec<bool> {
         O::wholly(observation).map_or_else(Vec::new, |observation| self.agent.members(observation))
+    }
+
+    fn targets(&self, observation: &Vector) -> Vec<bool> {
+        O::wholly(observation).map_or_else(Vec::new, |observation| self.agent.targets(observation))
+    }
+
+    fn attempt(
+        &self,
+        skill: u32,
+        env: &mut AnyEnvironment,
+        start: u64,
+        index: u64,
+    ) -> Result<Option<Attempt>, Stopped> {
+        let Some(env) = O::of(env) else { return Ok(None) };
+        let mut ctx = Context::evaluation(Seed(self.seed.number("attempt", u64::from(skill))), index);
+        attempt(&*self.agent, env, skill, start, &mut ctx).map_err(|halt| stopped(index, 0, halt))
     }
 
     fn save(&self) -> Bag {

@@ -6,8 +6,8 @@ use inroads_discovery::record::{
 };
 use inroads_envs::{Seed, TimeLimit, corridor::Corridor};
 
-use super::{Session, pair::Pair};
-use crate::assembly::Vector;
+use super::{BoxedEnvironment, Session, pair::Pair};
+use crate::assembly::{BoxedAgent, Vector};
 
 /// Cells of the corridor; no edge leads from or to the last one, which is the goal.
 const CELLS: u32 = 5;
@@ -19,6 +19,14 @@ pub(crate) fn session() -> Box<dyn Session> {
     let env = TimeLimit::new(Corridor::named("corridor-5", CELLS as usize), 50);
     let walker = Box::new(Walker { visits: vec![0; CELLS as usize] });
     Box::new(Pair::new(vec![Box::new(env)], None, walker, Seed(0)))
+}
+
+/// The session of an agent of a test's own.
+pub(crate) fn of(
+    env: BoxedEnvironment<Vector, Vector>,
+    agent: BoxedAgent<Vector, Vector>,
+) -> Box<dyn Session> {
+    Box::new(Pair::new(vec![env], None, agent, Seed(0)))
 }
 
 struct Walker {

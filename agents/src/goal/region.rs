@@ -73,6 +73,12 @@ impl Region {
         self.dims.iter().copied().zip(self.at.iter().copied())
     }
 
+    /// The same as a task's goal is given.
+    pub fn goal(&self) -> inroads_envs::Goal {
+        let dims = self.dims.iter().map(|&i| i as usize).collect();
+        inroads_envs::Goal { dims, at: self.at.clone(), tolerance: self.tolerance }
+    }
+
     /// Its radius.
     pub fn tolerance(&self) -> f32 {
         self.tolerance

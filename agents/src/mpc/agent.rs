@@ -3,24 +3,13 @@
 use std::sync::Arc;
 
 use inroads_envs::{Goal, Rng};
-use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Dynamics, DynamicsConfig, Fit, Planner, Predict, Problem, Reach, Refining, Reward, Shooting, View,
+    Dynamics, DynamicsConfig, Fit, Planner, PlannerKind, Problem, Reach, Refining, Reward, Shooting, View,
+    steer::Steering,
 };
 use crate::{Actor, Agent, Context, Experience, Memory, Transition, checkpoint, nets::Backend};
-
-/// Which planner looks for actions.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum PlannerKind {
-    /// The cross-entropy method with warm start.
-    #[default]
-    Refining,
-    /// Random shooting, as in the papers.
-    Shooting,
-}
 
 /// Settings of the agent.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -98,11 +87,9 @@ impl MpcConfig {
         Ok(())
     }
 
-    fn planner(&self) -> &dyn Planner {
-        match self.planner {
-            PlannerKind::Refining => &self.refining,
-            PlannerKind::Shooting => &self.shooting,
-        }
+    /// Who plans by these settings.
+    pub fn planner(&self) -> &dyn Planner {
+        self.planner.of(&self.refining, &self.shooting)
     }
 }
 
@@ -160,29 +147,13 @@ impl Mpc {
         Planning { agent: self, goal, memory: Memory::new() }
     }
 
-    /// The memory is: how many steps the last random action is still to be kept up, that action, and what the planner
-    /// remembers.
     fn act_with(&self, goal: &Goal, memory: &mut Memory, s: &[f32], ctx: &mut Context) -> Vec<f32> {
-        let (width, rng) = (self.dynamics.actions(), &mut ctx.acting);
-        if memory.is_empty() {
-            memory.resize(1 + width, 0.0);
-        }
-        let random = if self.fits == 0 { 1.0 } else { self.config.epsilon };
-        if memory[0] == 0.0 && rng.random::<f32>() < random {
-            *memory = vec![rng.random_range(1..=self.config.hold) as f32];
-            memory.extend((0..width).map(|_| rng.random_range(-1.0_f32..=1.0)));
-        }
-        if memory[0] > 0.0 {
-            memory[0] -= 1.0;
-            return memory[1..=width].to_vec();
-        }
-        let mut rest = memory.split_off(1 + width);
-        let objective = Reach { goal, reward: self.config.reward, values: None };
+        let config = &self.config;
+        let objective = Reach { goal, reward: config.reward, values: None };
         let problem = Problem { model: &self.dynamics, objective: &objective, s };
-        let mut plan = self.config.planner().plan(&problem, &mut rest, rng);
-        memory.append(&mut rest);
-        plan.truncate(width);
-        plan
+        let planner = config.planner();
+        let random = if self.fits == 0 { 1.0 } else { config.epsilon };
+        Steering { planner, random, hold: config.hold }.act(&problem, memory, &mut ctx.acting)
     }
 }
 

@@ -10,7 +10,10 @@ use inroads_envs::Rng;
 use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 
-use super::{Predict, View, standard::Standard};
+use super::{
+    Predict, View,
+    standard::{Moments, Standard},
+};
 use crate::{
     Bag, Checkpoint, Corrupt, Experience,
     nets::{Backend, Layers, Regressor, Step},
@@ -96,7 +99,13 @@ pub struct Dynamics {
     nets: Vec<Regressor>,
     inputs: Standard,
     changes: Standard,
+    /// Of inputs and changes, while the statistics of a model that learns by the way are not settled.
+    gathered: [Moments; 2],
 }
+
+/// Steps whose statistics settle those of a model that learns by the way. They stay: what a network has learned is in their
+/// units.
+const SETTLED: u64 = 20_000;
 
 /// What a network reads and what it is to predict, row by row.
 #[derive(Default)]
@@ -121,7 +130,32 @@ impl Dynamics {
         let shape = Layers { inputs, hidden: &config.hidden, outputs, slope: config.slope };
         let nets = (0..config.models).map(|_| Regressor::new(shape, backend, rng)).collect();
         let (inputs, changes) = (Standard::of(&[], inputs), Standard::of(&[], outputs));
-        Self { view, actions, config: config.clone(), nets, inputs, changes }
+        let gathered = [Moments::default(), Moments::default()];
+        Self { view, actions, config: config.clone(), nets, inputs, changes, gathered }
+    }
+
+    /// One update on these steps, each a state, an action and the next state; the mean square error before it, in
+    /// standardised changes. The first 20,000 steps are not learned from (0 is the error then): their means and deviations
+    /// become the units of all that follow.
+    pub fn learn<'a>(&mut self, steps: impl Iterator<Item = [&'a [f32]; 3]>) -> f32 {
+        let mut table = Table::default();
+        for [before, action, after] in steps {
+            self.view.read(before, &mut table.inputs);
+            table.inputs.extend_from_slice(action);
+            self.view.change(before, after, &mut table.changes);
+        }
+        let [inputs, changes] = &mut self.gathered;
+        if inputs.rows() < SETTLED {
+            inputs.add(&table.inputs, self.inputs.width());
+            changes.add(&table.changes, self.changes.width());
+            (self.inputs, self.changes) = (inputs.standard(), changes.standard());
+            return 0.0;
+        }
+        self.inputs.standardise(&mut table.inputs);
+        self.changes.standardise(&mut table.changes);
+        let step = Step { rate: self.config.rate, ..Step::default() };
+        let learn = |net: &mut Regressor| net.learn(table.inputs.clone(), table.changes.clone(), step);
+        self.nets.iter_mut().map(learn).sum::<f32>() / self.config.models as f32
     }
 
     /// So many passes over everything that is remembered.
@@ -239,12 +273,14 @@ impl Checkpoint for Dynamics {
     fn save(&self, bag: &mut Bag) {
         bag.put("inputs", &self.inputs);
         bag.put("changes", &self.changes);
+        bag.put("gathered", &self.gathered);
         self.nets.iter().enumerate().for_each(|(i, net)| bag.put_part(&format!("model {i}"), net));
     }
 
     fn load(&mut self, bag: &Bag) -> Result<(), Corrupt> {
         self.inputs = bag.get("inputs")?;
         self.changes = bag.get("changes")?;
+        self.gathered = bag.get("gathered")?;
         self.nets.iter_mut().enumerate().try_for_each(|(i, net)| bag.get_part(&format!("model {i}"), net))
     }
 }

@@ -3,20 +3,24 @@
 mod agent;
 mod dynamics;
 mod plan;
+mod planned;
 mod predict;
 mod refining;
 mod shooting;
 mod standard;
+mod steer;
 #[cfg(test)]
 mod tests;
 mod view;
 
-pub use agent::{Mpc, MpcConfig, PlannerKind, Planning};
+pub use agent::{Mpc, MpcConfig, Planning};
 pub use dynamics::{Dynamics, DynamicsConfig, Fit};
 pub use plan::{Candidates, Planner, Problem};
+pub use planned::{Planned, PlannedConfig};
 pub use predict::{Objective, Predict, Reach, Reward, Values};
 pub use refining::Refining;
 pub use shooting::Shooting;
+pub use steer::PlannerKind;
 pub use view::{FreeBody, Plain, View};
 
 /// What is wrong with a planner's horizon or discount, if anything.

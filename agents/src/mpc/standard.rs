@@ -19,22 +19,9 @@ pub(crate) struct Standard {
 impl Standard {
     /// That of rows of `width` numbers.
     pub(crate) fn of(rows: &[f32], width: usize) -> Self {
-        let n = (rows.len() / width.max(1)).max(1) as f64;
-        let mut means = vec![0.0; width];
-        for row in rows.chunks_exact(width.max(1)) {
-            means.iter_mut().zip(row).for_each(|(sum, x)| *sum += f64::from(*x));
-        }
-        means.iter_mut().for_each(|sum| *sum /= n);
-        let mut squares = vec![0.0; width];
-        for row in rows.chunks_exact(width.max(1)) {
-            let away = row.iter().zip(&means).map(|(x, mean)| f64::from(*x) - mean);
-            squares.iter_mut().zip(away).for_each(|(sum, away)| *sum += away * away);
-        }
-        let deviation = |sum: f64| Some((sum / n).sqrt()).filter(|&deviation| deviation >= FLOOR);
-        Self {
-            means: means.iter().map(|&mean| mean as f32).collect(),
-            deviations: squares.iter().map(|&sum| deviation(sum).unwrap_or(0.0) as f32).collect(),
-        }
+        let mut moments = Moments::default();
+        moments.add(rows, width);
+        moments.standard()
     }
 
     /// Numbers a row.
@@ -57,6 +44,45 @@ impl Standard {
             for ((x, mean), deviation) in row.iter_mut().zip(&self.means).zip(&self.deviations) {
                 *x = mean + deviation * *x;
             }
+        }
+    }
+}
+
+/// Means and squares of columns, row by row (Welford's recurrence).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Moments {
+    rows: u64,
+    means: Vec<f64>,
+    squares: Vec<f64>,
+}
+
+impl Moments {
+    /// How many rows there were.
+    pub(crate) fn rows(&self) -> u64 {
+        self.rows
+    }
+
+    /// More rows of `width` numbers.
+    pub(crate) fn add(&mut self, rows: &[f32], width: usize) {
+        self.means.resize(width, 0.0);
+        self.squares.resize(width, 0.0);
+        for row in rows.chunks_exact(width.max(1)) {
+            self.rows += 1;
+            for ((mean, square), x) in self.means.iter_mut().zip(&mut self.squares).zip(row) {
+                let away = f64::from(*x) - *mean;
+                *mean += away / self.rows as f64;
+                *square += away * (f64::from(*x) - *mean);
+            }
+        }
+    }
+
+    /// Their means and deviations.
+    pub(crate) fn standard(&self) -> Standard {
+        let n = self.rows.max(1) as f64;
+        let deviation = |sum: &f64| Some((sum / n).sqrt()).filter(|&deviation| deviation >= FLOOR);
+        Standard {
+            means: self.means.iter().map(|&mean| mean as f32).collect(),
+            deviations: self.squares.iter().map(|sum| deviation(sum).unwrap_or(0.0) as f32).collect(),
         }
     }
 }

@@ -184,6 +184,10 @@ impl<O, G: Encode> Learner<O, Vec<f32>, G> for Td3<O> {
         self.nets.values(self.inputs.rows(goals.iter().map(|goal| (s, *goal))))
     }
 
+    fn values_of(&self, states: &[O], goal: Option<&G>) -> Vec<f32> {
+        self.nets.values(self.inputs.rows(states.iter().map(|s| (s, goal))))
+    }
+
     /// A clip's error is the greater of the critics' (Fujimoto 2020, LAP), and the loss the sum of theirs.
     fn learn(&mut self, clips: &[Clip<O, Vec<f32>, G>], ctx: &mut Context) -> Learned {
         if clips.is_empty() {

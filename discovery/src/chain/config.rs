@@ -29,6 +29,8 @@ pub struct ChainConfig {
     pub pretrain: u32,
     /// What an execution goes for (4.1.2).
     pub subgoals: Subgoals,
+    /// What is done where no skill may start.
+    pub explore: Explore,
     /// Greatest distance from a subgoal state that counts as there, in the units of the domain (authors: 0.6).
     pub tolerance: f32,
     /// States of an episode that policies are taught to reach, in hindsight, where they are told states.
@@ -66,6 +68,7 @@ impl Default for ChainConfig {
             lessons: Lessons::All,
             pretrain: 3000,
             subgoals: Subgoals::Set,
+            explore: Explore::Task,
             tolerance: 0.6,
             hindsight: 4,
             freeze: true,
@@ -105,8 +108,24 @@ impl ChainConfig {
         if self.subgoals != Subgoals::Set && self.option_reward == OptionReward::Dense {
             return Err("option_reward = \"dense\" measures the way to a set; with subgoals that are states it must be \"sparse\"".into());
         }
+        if self.subgoals == Subgoals::Set && self.explore == Explore::Events {
+            return Err("explore = \"events\" sends a policy to states, which with subgoals = \"set\" none can be told; \
+                        set explore = \"task\""
+                .into());
+        }
         Ok(())
     }
+}
+
+/// What the global option does: it is called where no learned skill may start, or is not wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Explore {
+    /// One primitive action on the way to the task's goal (3.1.2).
+    Task,
+    /// It goes for the nearest salient event, the task's goal among them, until some skill may start or its time is out
+    /// (authors' code of chapter 4, in which a skill in gestation does that, and the global option afterwards).
+    Events,
 }
 
 /// What an execution of a skill goes for.

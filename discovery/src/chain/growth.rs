@@ -65,12 +65,18 @@ where
         }
     }
 
-    /// What an execution teaches its policy: the goal that it went for, and the state that it came to (authors' code).
-    pub(super) fn teach_own(&mut self, out: &Outcome<S::Goal>, all: &Experience<O, A>) {
+    /// What an execution teaches its policy: the goal that it went for, the state that it came to (authors' code), and some
+    /// of the states on its way.
+    pub(super) fn teach_own(&mut self, out: &Outcome<S::Goal>, all: &Experience<O, A>, ctx: &mut Context) {
         let Some(episode) = all.episode(out.episode) else { return };
         let Some(pursued) = &out.call.goal else { return };
-        let achieved = self.aim.at(&episode.observations[out.steps.end as usize]);
-        for goal in achieved.iter().chain([pursued]) {
+        let mut goals = vec![pursued.clone()];
+        for i in 0..self.config.hindsight {
+            let (first, last) = (out.steps.start + 1, out.steps.end);
+            let step = if i == 0 { last } else { ctx.learning.random_range(first..=last) };
+            goals.extend(self.aim.at(&episode.observations[step as usize]));
+        }
+        for goal in &goals {
             for lesson in hindsight::lessons(goal, out.episode, episode, out.steps.clone()) {
                 self.policy.lesson(out.call.skill, lesson);
             }
@@ -96,10 +102,11 @@ where
         }
     }
 
-    /// What all that is remembered teaches a new skill: its subgoal, or some states of it.
+    /// What all that is remembered teaches a new skill: its subgoal, or some states of it where policies learn of steps that
+    /// others took.
     fn teach_past(&mut self, k: SkillId, all: &Experience<O, A>, ctx: &mut Context) {
-        let goals: Vec<_> =
-            (0..self.config.hindsight).filter_map(|_| self.sampled(k, all, &mut ctx.learning)).collect();
+        let draws = if self.config.lessons == Lessons::All { self.config.hindsight } else { 0 };
+        let goals: Vec<_> = (0..draws).filter_map(|_| self.sampled(k, all, &mut ctx.learning)).collect();
         for past in all.numbers() {
             self.teach(k, past, 0..all.length(past), all);
             let Some(episode) = all.episode(past) else { continue };

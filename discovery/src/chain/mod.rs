@@ -20,9 +20,10 @@ mod pursuit;
 mod repertoire;
 mod skill;
 mod skilled;
+mod trial;
 
-pub use aim::{Aim, Sets, States};
-pub use config::{ChainAt, ChainConfig, Lessons, OptionReward, Subgoals};
+pub use aim::{Aim, Places, Sets, States};
+pub use config::{ChainAt, ChainConfig, Explore, Lessons, OptionReward, Subgoals};
 pub(crate) use skill::observation;
 pub use skill::{Moment, Phase, Skill};
 
@@ -123,7 +124,8 @@ where
     ) -> Call<S::Goal> {
         lane.driver.hand_to(k);
         let goal = self.pursue(k, s, &mut lane.values, all, ctx);
-        Call { skill: k, goal, budget: if k == SkillId::GLOBAL { 1 } else { self.config.timeout } }
+        let primitive = k == SkillId::GLOBAL && goal.is_none();
+        Call { skill: k, goal, budget: if primitive { 1 } else { self.config.timeout } }
     }
 
     /// Whether a skill's set has become a salient event that other skills may aim at.
@@ -243,8 +245,15 @@ where
 
     fn reached(&self, call: &Call<S::Goal>, t: &Transition<O, A>) -> bool {
         let subgoal = self.repertoire.skill(call.skill).subgoal;
-        let there = call.goal.as_ref().is_none_or(|goal| goal.reached(t.after));
-        there && self.repertoire.attained(subgoal, t.after, t.reward, t.end)
+        let attained = || self.repertoire.attained(subgoal, t.after, t.reward, t.end);
+        match &call.goal {
+            None => attained(),
+            // It goes for some event, but any skill that may start does better.
+            Some(goal) if call.skill == SkillId::GLOBAL => {
+                goal.reached(t.after) || attained() || self.repertoire.startable(t.after).next().is_some()
+            }
+            Some(goal) => goal.reached(t.after) && attained(),
+        }
     }
 
     fn finished(
@@ -258,9 +267,11 @@ where
         let entered = self.entered(out, all);
         self.repertoire.executed(k, out.episode, entered);
         self.decided(out, all, ctx);
-        if k != SkillId::GLOBAL && self.config.lessons == Lessons::Own {
-            self.teach(k, out.episode, out.steps.clone(), all);
-            self.teach_own(out, all);
+        if self.config.lessons == Lessons::Own {
+            if k != SkillId::GLOBAL {
+                self.teach(k, out.episode, out.steps.clone(), all);
+            }
+            self.teach_own(out, all, ctx);
         }
         if let Some(goal) = &out.call.goal
             && !lane.pursued.contains(goal)
@@ -277,8 +288,14 @@ where
     fn learn(&mut self, call: &Call<S::Goal>, all: &Experience<O, A>, ctx: &mut Context) {
         let episode = all.latest();
         let now = all.length(episode);
-        self.policy.lesson(SkillId::GLOBAL, Lesson::task(episode, now - 1));
+        if self.aim.task().is_none() {
+            self.policy.lesson(SkillId::GLOBAL, Lesson::task(episode, now - 1));
+        }
         self.policy.step(SkillId::GLOBAL, all, ctx);
+        if S::TELLS {
+            // One policy for all, which has made its step.
+            return;
+        }
         let learned = self.repertoire.learned().len() as u32;
         if call.skill != SkillId::GLOBAL {
             self.policy.step(call.skill, all, ctx);

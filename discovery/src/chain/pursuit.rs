@@ -17,7 +17,7 @@ use inroads_agents::{Context, Experience, Memory, draw::argmax};
 use inroads_envs::Rng;
 
 use super::{
-    Aim, Chaining, Subgoals,
+    Aim, Chaining, Explore, Subgoals,
     aim::any,
     skill::{Moment, observation},
 };
@@ -54,7 +54,10 @@ where
         ctx: &mut Context,
     ) -> Option<S::Goal> {
         if k == SkillId::GLOBAL {
-            return None;
+            return match self.config.explore {
+                Explore::Task => None,
+                Explore::Events => self.nearest(s, all, &mut ctx.acting),
+            };
         }
         match self.subgoals() {
             Subgoals::Set => None,
@@ -71,6 +74,25 @@ where
         }
     }
 
+    /// A state of the nearest salient event: by the median distance of the states that a skill is known to succeed from, as
+    /// the authors have it, or by that of the task's goal. Where the task's goal is no state to go for, its skill's are.
+    fn nearest(&self, s: &O, all: &Experience<O, A>, rng: &mut Rng) -> Option<S::Goal> {
+        let far = |moment: &Moment| Some(self.aim.distance(s, &self.aim.at(observation(all, *moment)?)?));
+        let median = |k: SkillId| {
+            let mut far: Vec<f32> = self.repertoire.skill(k).positives.iter().filter_map(far).collect();
+            far.sort_by(f32::total_cmp);
+            far.get(far.len() / 2).copied()
+        };
+        let skills = self.repertoire.learned().filter(|k| self.salient(*k));
+        let events = skills.filter_map(|k| Some((median(k)?, Some(k))));
+        let task = self.aim.task().map(|goal| (self.aim.distance(s, &goal), None));
+        let (_, nearest) = events.chain(task).min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+        match nearest {
+            None => self.aim.task(),
+            Some(k) => self.example(Subgoal::Enter(k), &self.repertoire.skill(k).positives, all, rng),
+        }
+    }
+
     /// One of the states that skill `k` might go for, at random; none where its policy is not told.
     pub(super) fn sampled(&self, k: SkillId, all: &Experience<O, A>, rng: &mut Rng) -> Option<S::Goal> {
         match self.subgoals() {
@@ -79,37 +101,49 @@ where
         }
     }
 
-    /// A state from which the parent was seen to succeed, and that may still be aimed at; for the task, one in which it
-    /// was done.
+    /// A state that skill `k` is to reach: the task's goal, if it is one; else one in which the task was done, or one that the
+    /// parent is known to succeed from and that may still be aimed at.
     fn sample(&self, k: SkillId, all: &Experience<O, A>, rng: &mut Rng) -> Option<S::Goal> {
-        let known = match self.repertoire.skill(k).subgoal {
-            Subgoal::Task => &self.repertoire.skill(k).effects,
-            Subgoal::Enter(parent) => &self.repertoire.skill(parent).positives,
-        };
+        let subgoal = self.repertoire.skill(k).subgoal;
+        match subgoal {
+            Subgoal::Task => {
+                self.aim.task().or_else(|| self.example(subgoal, &self.repertoire.skill(k).effects, all, rng))
+            }
+            Subgoal::Enter(parent) => {
+                self.example(subgoal, &self.repertoire.skill(parent).positives, all, rng)
+            }
+        }
+    }
+
+    /// One of these states at random, preferably one inside the subgoal.
+    fn example(
+        &self,
+        subgoal: Subgoal,
+        of: &[Moment],
+        all: &Experience<O, A>,
+        rng: &mut Rng,
+    ) -> Option<S::Goal> {
         let mut drawn = None;
         for _ in 0..DRAWS {
-            let Some(s) = any(known, rng).and_then(|moment| observation(all, *moment)) else { continue };
+            let Some(s) = any(of, rng).and_then(|moment| observation(all, *moment)) else { continue };
             drawn = Some(s);
-            if self.may_aim(k, s) {
+            if self.may_aim(subgoal, s) {
                 break;
             }
         }
         self.aim.at(drawn?)
     }
 
-    /// Whether `s` is still inside the subgoal of skill `k`. The task's is where it was done.
-    fn may_aim(&self, k: SkillId, s: &O) -> bool {
-        match self.repertoire.skill(k).subgoal {
-            Subgoal::Task => true,
-            subgoal => self.repertoire.inside(subgoal, s),
-        }
+    /// Whether `s` is still inside a subgoal. The task's is where it was done.
+    fn may_aim(&self, subgoal: Subgoal, s: &O) -> bool {
+        subgoal == Subgoal::Task || self.repertoire.inside(subgoal, s)
     }
 
     /// V(s, g): what getting from `s` to `g` is worth to skill `k`.
     fn leg(&self, s: &O, k: SkillId, g: &S::Goal) -> f32 {
         match g.reached(s) {
             true => 1.0,
-            false => self.policy.values(&Memory::new(), s, &[(k, Some(g))])[0],
+            false => self.aim.probability(self.policy.values(&Memory::new(), s, &[(k, Some(g))])[0]),
         }
     }
 
@@ -119,8 +153,12 @@ where
         for k in self.repertoire.learned() {
             let skill = self.repertoire.skill(k);
             let mut row: Vec<(S::Goal, f32)> = Vec::new();
+            if let (Subgoal::Task, Some(goal)) = (skill.subgoal, self.aim.task()) {
+                values.push(vec![(goal, 1.0)]);
+                continue;
+            }
             let known = |moment: &Moment| observation(all, *moment);
-            for s in skill.effects.iter().filter_map(known).filter(|s| self.may_aim(k, s)) {
+            for s in skill.effects.iter().filter_map(known).filter(|s| self.may_aim(skill.subgoal, s)) {
                 let Some(goal) = self.aim.at(s) else { continue };
                 if row.iter().any(|(known, _)| *known == goal) {
                     continue;

@@ -60,6 +60,11 @@ impl<O: AsRef<[f32]> + Clone, A, I: Initiation<O, A>> Repertoire<O, A, I> {
         self.initiation.targets(k, s)
     }
 
+    /// How probable it is, by its set, that skill `k` succeeds from `s`.
+    pub(super) fn chance(&self, k: SkillId, s: &O) -> Option<f32> {
+        self.initiation.chance(k, s)
+    }
+
     /// Whether some learned skill may start at `s`.
     pub(super) fn covers(&self, s: &O) -> bool {
         self.learned().any(|k| self.contains(k, s))

@@ -3,8 +3,11 @@
 use inroads_agents::Actor;
 use serde::{Serialize, de::DeserializeOwned};
 
-use super::{Aim, Chaining, Lane};
-use crate::{Hierarchy, Initiation, PolicyOverSkills, SkillPolicy, SkillRecord, Skilled, Subgoal};
+use super::{Aim, Chaining, Lane, trial::OneCall};
+use crate::{
+    Hierarchy, Initiation, PolicyOverSkills, SkillId, SkillPolicy, SkillRecord, Skilled, Subgoal,
+    record::Trial,
+};
 
 impl<O, A, I, P, Q, S> Skilled<O, A> for Hierarchy<O, A, Chaining<O, A, I, P, Q, S>>
 where
@@ -40,6 +43,21 @@ where
     fn members(&self, s: &O) -> Vec<bool> {
         let repertoire = &self.method().repertoire;
         repertoire.learned().map(|k| repertoire.contains(k, s)).collect()
+    }
+
+    fn targets(&self, s: &O) -> Vec<bool> {
+        let repertoire = &self.method().repertoire;
+        repertoire.learned().map(|k| repertoire.targets(k, s)).collect()
+    }
+
+    fn chances(&self, s: &O) -> Vec<Option<f32>> {
+        let repertoire = &self.method().repertoire;
+        repertoire.learned().map(|k| repertoire.chance(k, s)).collect()
+    }
+
+    fn one_call(&self, skill: u32) -> Option<Box<dyn Trial<O, A> + '_>> {
+        let known = self.method().repertoire.learned().any(|k| k == SkillId(skill));
+        known.then(|| Box::new(OneCall::new(self.method(), self.experience(), SkillId(skill))) as _)
     }
 
     fn chain_alone(&self) -> Option<Box<dyn Actor<O, A> + '_>> {

@@ -254,6 +254,10 @@ where
         (self.config.pessimistic - self.values(k, &[s])[0]).max(0.0)
     }
 
+    fn chance(&self, k: SkillId, s: &O) -> Option<f32> {
+        Some(self.values(k, &[s])[0])
+    }
+
     fn outcome(&mut self, k: SkillId, states: &[O], success: bool) {
         let Some(member) = self.member_mut(k) else { return };
         match success {

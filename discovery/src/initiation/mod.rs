@@ -43,6 +43,12 @@ pub trait Initiation<O, A>: Checkpoint {
     /// How far `s` is outside what may be aimed at, 0 inside; in the family's own units, for dense rewards (3.1.1).
     fn distance(&self, k: SkillId, s: &O) -> f32;
 
+    /// How probable it is, as far as the family knows, that skill `k` succeeds from `s`; none of one that only tells inside from
+    /// outside.
+    fn chance(&self, _k: SkillId, _s: &O) -> Option<f32> {
+        None
+    }
+
     /// Skill `k` was executed: `states` led to its subgoal, or did not.
     fn outcome(&mut self, k: SkillId, states: &[O], success: bool);
 
@@ -88,6 +94,10 @@ impl<O, A> Initiation<O, A> for Box<dyn Initiation<O, A>> {
 
     fn distance(&self, k: SkillId, s: &O) -> f32 {
         (**self).distance(k, s)
+    }
+
+    fn chance(&self, k: SkillId, s: &O) -> Option<f32> {
+        (**self).chance(k, s)
     }
 
     fn outcome(&mut self, k: SkillId, states: &[O], success: bool) {

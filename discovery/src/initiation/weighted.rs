@@ -163,6 +163,10 @@ where
         (self.ivf.config().pessimistic - self.probability(k, s)).max(0.0)
     }
 
+    fn chance(&self, k: SkillId, s: &O) -> Option<f32> {
+        Some(self.probability(k, s))
+    }
+
     fn outcome(&mut self, k: SkillId, states: &[O], success: bool) {
         self.ivf.outcome(k, states, success);
         let capacity = self.config.examples;
