@@ -179,7 +179,7 @@ fn word<T: FromStr<Err = WordError>>(word: &str) -> Result<Option<T>, ConfigErro
 }
 
 impl Config {
-    /// The defaults of an agent in an environment.
+    /// The defaults of an agent in an environment: its own, with what suits the environment ([`assembly::suits`]).
     ///
     /// # Errors
     /// [`ConfigError::UnknownName`] with the nearest name.
@@ -203,7 +203,8 @@ impl Config {
                 ..World::default()
             },
         };
-        Ok(Self { settings, agent: (entry.defaults)() })
+        let defaults = Self { settings, agent: (entry.defaults)() };
+        assembly::suits(agent, environment).try_fold(defaults, |config, suit| config.overlaid(&suit))
     }
 
     /// The defaults with what is asked for in their place: `ask` puts it there. How the world is seen is among that, and some

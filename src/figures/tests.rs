@@ -49,6 +49,7 @@ fn u_maze() -> Map {
         bounds: Rect { min: [-6.0, -6.0], max: [14.0, 14.0] },
         goal: Some(([0.0, 8.0], 0.6)),
         starts: vec![[0.0, 0.0]],
+        key: None,
     }
 }
 
@@ -153,6 +154,31 @@ fn a_raster_counts_free_space_from_the_lowest_row() {
     assert_eq!(low.share_of_free_space(&map), 0.5);
     let walled = Map { walls: vec![map.bounds], ..map };
     assert!(low.share_of_free_space(&walled).is_nan());
+}
+
+#[test]
+fn regions_overlap_by_cells_and_have_their_middle_inside() {
+    let map = Map { bounds: Rect { min: [0.0, 0.0], max: [3.0, 3.0] }, ..Map::default() };
+    let left = Raster::of(&map, 3, 3, |point| point[0] < 2.0);
+    let low = Raster::of(&map, 3, 3, |point| point[1] < 1.0);
+    assert_eq!(left.overlap(&low), 2.0 / 7.0);
+    let empty = Raster::of(&map, 3, 3, |_| false);
+    assert_eq!((left.overlap(&empty), empty.overlap(&empty)), (0.0, 1.0));
+    // Of an L the mean is (1.1, 1.1), in no cell of it.
+    let bent = Raster::of(&map, 3, 3, |[x, y]| x < 1.0 || y < 1.0);
+    let [x, y] = bent.middle(&map).unwrap();
+    assert!(x < 1.0 || y < 1.0, "{x}, {y}");
+    assert_eq!(low.middle(&map), Some([1.5, 0.5]));
+    assert_eq!(empty.middle(&map), None);
+}
+
+#[test]
+fn a_key_is_a_blue_disc_where_there_is_one() {
+    let scratch = Scratch::new("key.png");
+    for key in [None, Some([8.0, 4.0])] {
+        sets(&scratch.0, &Map { key, ..u_maze() }, &[], "").unwrap();
+        assert_eq!(has(&read_png(&scratch).1, palette::KEY), key.is_some());
+    }
 }
 
 #[test]

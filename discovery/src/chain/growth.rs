@@ -148,13 +148,22 @@ where
         if !siblings.all(|k| self.salient(k)) {
             return None;
         }
-        let index = self.gestations.iter().position(|g| g.subgoal == subgoal).unwrap_or_else(|| {
+        let same = |g: &Gestation| g.subgoal == subgoal && self.one_branch(g, start, all);
+        let index = self.gestations.iter().position(same).unwrap_or_else(|| {
             self.gestations.push(Gestation::new(subgoal));
             self.gestations.len() - 1
         });
         self.gestations[index].triggers.push((number, 0..step + 1));
         let complete = self.gestations[index].triggers.len() >= self.config.gestation as usize;
         complete.then(|| self.gestations.swap_remove(index))
+    }
+
+    /// Whether a trajectory that began at `start` belongs to the same branch of the tree as those of a gestation.
+    fn one_branch(&self, gestation: &Gestation, start: &O, all: &Experience<O, A>) -> bool {
+        let of_first =
+            gestation.triggers.first().and_then(|(number, _)| all.episode(*number)?.observations.first());
+        self.config.branch == 0.0
+            || of_first.is_none_or(|first| self.repertoire.apart(first, start) <= self.config.branch)
     }
 
     /// The first salient event that an episode meets, and the step that meets it. Where sets overlap the
