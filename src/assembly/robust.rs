@@ -68,8 +68,8 @@ impl Default for ControlConfig {
 impl Default for RobustConfig {
     fn default() -> Self {
         Self {
-            memory: MemoryConfig { capacity: 300_000, updates_per_step: 1.0, warm_up: 10_000 },
-            policy: Td3Config { actor_rate: 3e-4, critic_rate: 3e-4, random: 0.2, ..Td3Config::default() },
+            memory: MemoryConfig { capacity: 300_000, updates_per_step: 0.5, warm_up: 10_000 },
+            policy: Td3Config { discount: 0.98, random: 0.2, ..Td3Config::default() },
             control: ControlConfig::default(),
             chain: ChainConfig {
                 gestation: 5,
@@ -78,6 +78,7 @@ impl Default for RobustConfig {
                 initiation_successes: 3,
                 timeout: 200,
                 chain_at: ChainAt::InitiationEnd,
+                option_reward: OptionReward::Dense,
                 lessons: Lessons::Own,
                 pretrain: 0,
                 subgoals: Subgoals::Sample,
