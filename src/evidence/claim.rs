@@ -102,7 +102,7 @@ impl Claim {
             seeds,
             means: means.map(|side| (side.name.to_owned(), mean_interval(&side.numbers()))).collect(),
             steps: rests_on().map(|run| run.steps).sum(),
-            core_hours: rests_on().map(|run| run.wall_seconds).sum::<f64>() / 3600.0,
+            core_hours: rests_on().fold(0.0, |sum, run| sum + run.wall_seconds) / 3600.0,
             values: sides.iter().map(|side| (side.name.to_owned(), side.values.clone())).collect(),
             commits,
         })
