@@ -66,7 +66,10 @@ fn choose(plan: &Plan, domain: usize, arms: &[String], choice: Choice) -> Result
                 done.sort_by(|x, y| x.0.total_cmp(&y.0));
                 done = done.drain(..).skip(seeds.saturating_sub(1) / 2).take(1).collect();
                 let seed = done.first().map_or_else(String::new, |(_, seed, _)| format!("seed {seed}, "));
-                format!("{seed}the median of {seeds} seeds by {}", metric.words())
+                match seeds {
+                    1 => format!("{seed}the only one that is done"),
+                    _ => format!("{seed}the median of {seeds} seeds by {}", metric.words()),
+                }
             }
             Choice::Each => {
                 done.truncate(MOST);

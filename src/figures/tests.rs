@@ -308,3 +308,32 @@ fn the_fonts_parse_and_have_the_letters_we_use() {
     assert!(text::width(&short, size, text::Weight::Regular) <= 101.0);
     assert_eq!(text::wrap("one two three", 16.0, 80.0), ["one two", "three"]);
 }
+
+#[test]
+fn dots_and_logarithms_take_odd_numbers() {
+    let scratch = Scratch::new("dots.png");
+    let column =
+        |colour, values: &[f64]| Column { label: format!("agent {colour}"), colour, values: values.into() };
+    let arena = Dots {
+        title: "arena".into(),
+        y_label: "steps".into(),
+        y_range: None,
+        columns: vec![column(1, &[3.0, 5.0, f64::NAN]), column(2, &[]), column(3, &[f64::INFINITY, 4.0])],
+    };
+    dots(&scratch.0, &[arena, Dots::default()], "not done yet: one").unwrap();
+    let (size, pixels) = read_png(&scratch);
+    assert!(size[0] == 942 && has(&pixels, palette::colour(1)), "{size:?}");
+    assert!(dots(&scratch.0, &[], "").is_err());
+
+    let falling = (0..6).map(|step| (f64::from(step), 10f64.powi(-step))).collect();
+    let odd = vec![(0.0, 0.0), (1.0, -1.0), (2.0, f64::NAN), (3.0, 0.5)];
+    let log = Panel { log: true, y_range: Some((1e-4, 1.0)), ..panel(vec![falling, odd]) };
+    curves_on(
+        &scratch.0,
+        &[log.clone(), Panel { y_range: None, ..log }],
+        &Sheet { columns: 1, remark: "x".into() },
+    )
+    .unwrap();
+    let (size, pixels) = read_png(&scratch);
+    assert!(size[0] == 820 && size[1] > 800 && has(&pixels, palette::colour(1)), "{size:?}");
+}
