@@ -8,12 +8,14 @@ mod bodies;
 mod calibration;
 mod compare;
 mod control;
+mod cost;
 mod evaluator;
 mod learners;
 mod measure;
 mod planning;
 mod processor;
 mod recurrent;
+mod refits;
 mod training;
 mod workload;
 mod worlds;
@@ -51,6 +53,9 @@ struct Options {
     /// done in `--seconds`.
     #[arg(long, value_name = "WORKLOAD")]
     only: Option<String>,
+    /// Print what a step of the environment costs each agent, by part; or this agent.
+    #[arg(long, value_name = "AGENT", num_args = 0..=1, default_missing_value = "")]
+    cost: Option<String>,
     /// How long `--only` measures.
     #[arg(long, value_name = "SECONDS", default_value_t = 1.0)]
     seconds: f64,
@@ -92,12 +97,20 @@ fn run(options: &Options) -> Result<bool, String> {
     workloads.extend(training::training());
     workloads.extend(evaluator::evaluator());
     workloads.extend(planning::planning());
+    workloads.extend(refits::refits());
     if let Some(name) = &options.only {
         let names = workloads.iter().map(|w| w.name.clone()).collect::<Vec<_>>().join("\n  ");
         let found = workloads.iter_mut().find(|w| w.name == *name);
         let found = found.ok_or_else(|| format!("there is no workload `{name}`; all of them:\n  {names}"))?;
         let [processor, clock] = plainly(found, options.seconds);
         println!("{processor:.4} {clock:.4}");
+        return Ok(true);
+    }
+    if let Some(agent) = &options.cost {
+        cost::table(Some(&**agent).filter(|agent| !agent.is_empty()), |name| {
+            let refit = workloads.iter_mut().find(|w| w.name == name);
+            1e6 / plainly(refit.expect("it is among the refits"), 1.0)[0]
+        });
         return Ok(true);
     }
     let effort = if options.quick {

@@ -137,7 +137,7 @@ pub(crate) fn plainly(workload: &mut Workload, seconds: f64) -> [f64; 2] {
 }
 
 /// Seconds that this thread has run, to some milliseconds; Linux only.
-fn processor_time() -> Option<f64> {
+pub(crate) fn processor_time() -> Option<f64> {
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     Some(told.split_whitespace().next()?.parse::<f64>().ok()? * 1e-9)
 }

@@ -46,7 +46,7 @@ const APART: usize = 20;
 const STATES: usize = 30;
 
 /// Goals that are walked to with each planner; random shooting thinks for about a second a step.
-const WALKED: u64 = 3;
+const WALKED: u64 = 4;
 
 /// What is compared.
 struct Variant {
@@ -153,6 +153,7 @@ fn walkers() -> Vec<(&'static str, MpcConfig)> {
     vec![
         ("default: refining, 3 rounds of 250 × 15", refining(default.candidates, default.horizon)),
         ("refining, 3 rounds of 80 × 15", refining(80, default.horizon)),
+        ("refining, 3 rounds of 250 × 7", refining(250, 7)),
         ("refining, 3 rounds of 80 × 7", refining(80, 7)),
         ("random shooting, 14,000 × 7", MpcConfig { planner: PlannerKind::Shooting, ..plain.clone() }),
     ]

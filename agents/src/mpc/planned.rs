@@ -48,7 +48,7 @@ impl Default for PlannedConfig {
             planner: PlannerKind::default(),
             refining: Refining { horizon: 10, candidates: 64, rounds: 2, elites: 8, ..Refining::default() },
             shooting: Shooting::default(),
-            reward: Reward::Sparse,
+            reward: Reward::Dense,
             values: true,
             ready: 5000,
             every: 1,

@@ -105,8 +105,10 @@ impl ChainConfig {
                 return Err(format!("{name} is {distance}; it must be 0 or above"));
             }
         }
-        if self.subgoals != Subgoals::Set && self.option_reward == OptionReward::Dense {
-            return Err("option_reward = \"dense\" measures the way to a set; with subgoals that are states it must be \"sparse\"".into());
+        if self.subgoals == Subgoals::DynamicProgramming && self.option_reward == OptionReward::Dense {
+            return Err("subgoals = \"dynamic_programming\" reads probabilities from the values of sparse rewards; set \
+                        option_reward = \"sparse\", or subgoals = \"sample\""
+                .into());
         }
         if self.subgoals == Subgoals::Set && self.explore == Explore::Events {
             return Err("explore = \"events\" sends a policy to states, which with subgoals = \"set\" none can be told; \
@@ -156,7 +158,8 @@ pub enum ChainAt {
 pub enum OptionReward {
     /// 0 for reaching the subgoal, −1 for every other step.
     Sparse,
-    /// Minus the distance to the subgoal: to the goal's point, or to the parent's set in its classifier's units.
+    /// Minus the distance to the subgoal: to the state that an execution goes for, to the goal's point, or to the parent's set
+    /// in its classifier's units.
     Dense,
 }
 
