@@ -31,11 +31,13 @@ const SUITS: &[Suit] = &[
         environments: &["point-lock-and-key"],
         settings: "policy.noise = { decay_steps = 55000, end = 0.1 }",
     },
-    // Skills long enough that four make a way, each of them soon in use.
+    // Skills long enough that four make a way, each of them soon in use; they give up soon, and their noise does not die down
+    // before they have been seen to work.
     Suit {
         agents: &["dsc"],
         environments: &["point-e-maze", "point-lock-and-key"],
-        settings: "chain = { segment = 40, gestation = 3, initiation_episodes = 5, initiation_successes = 3 }",
+        settings: "chain = { segment = 40, gestation = 3, initiation_episodes = 5, initiation_successes = 3, timeout = 50 }
+policy.fork_noise = { kind = 'ornstein_uhlenbeck', start = 1.0, end = 0.1, decay_steps = 30000 }",
     },
     // Sets that follow the corridor, of metres; a branch for each start.
     Suit {
