@@ -168,7 +168,7 @@ impl Plan {
             path: self.file.clone(),
             arm: arm.name.clone(),
             domain: domain.name.clone(),
-            why,
+            why: Box::new(why),
         })?;
         let name = format!("{}/{}/{seed}", domain.name, arm.name);
         Ok(Asked {
