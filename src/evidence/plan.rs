@@ -195,7 +195,7 @@ impl Plan {
             tables.chain(arms.iter().map(|arm| &arm.set)).chain(rules.map(|rule| &rule.set)).collect();
         let said = self.said(domain, seed);
         Config::asked(agent, &domain.environment, |config| {
-            tables.iter().copied().chain([&said]).try_fold(config, |config, table| config.overlaid(table))
+            config.overlaid(tables.iter().copied().chain([&said]))
         })
     }
 

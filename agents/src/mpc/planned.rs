@@ -172,3 +172,6 @@ impl<L: Learner<Vec<f32>, Vec<f32>, Region>> Learner<Vec<f32>, Vec<f32>, Region>
         self.learner.batch()
     }
 }
+
+#[cfg(test)]
+mod tests;
