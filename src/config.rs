@@ -179,7 +179,7 @@ fn word<T: FromStr<Err = WordError>>(word: &str) -> Result<Option<T>, ConfigErro
 }
 
 impl Config {
-    /// The defaults of an agent in an environment.
+    /// The defaults of an agent in an environment: its own, with what suits the environment ([`assembly::suits`]).
     ///
     /// # Errors
     /// [`ConfigError::UnknownName`] with the nearest name.
@@ -203,7 +203,8 @@ impl Config {
                 ..World::default()
             },
         };
-        Ok(Self { settings, agent: (entry.defaults)() })
+        let defaults = Self { settings, agent: (entry.defaults)() };
+        defaults.overlaid(&assembly::suits(agent, environment).collect::<Vec<_>>())
     }
 
     /// The defaults with what is asked for in their place: `ask` puts it there. How the world is seen is among that, and some
@@ -241,7 +242,7 @@ impl Config {
     /// # Errors
     /// [`ConfigError`] names the file, or the key and the mend.
     pub fn with_file(self, path: &Path) -> Result<Self, ConfigError> {
-        self.overlaid(&read(path)?)
+        self.overlaid([&read(path)?])
     }
 
     /// The same with one value in the place of its own: `key=value`, the key dotted, the value TOML or a word.
@@ -260,11 +261,8 @@ impl Config {
         self,
         assignments: impl IntoIterator<Item = &'a str>,
     ) -> Result<Self, ConfigError> {
-        let mut table = self.table();
-        for assignment in assignments {
-            overlay(&mut table, &assigned(assignment)?, "")?;
-        }
-        self.put(table)
+        let tables = assignments.into_iter().map(assigned).collect::<Result<Vec<_>, _>>()?;
+        self.overlaid(&tables)
     }
 
     /// Reads a whole configuration, as a run folder has it.
@@ -274,7 +272,7 @@ impl Config {
     pub fn read(path: &Path) -> Result<Self, ConfigError> {
         let table = read(path)?;
         let name = |key: &str| table.get(key).and_then(Value::as_str).unwrap_or_default();
-        Self::defaults(name("agent"), name("environment"))?.overlaid(&table)
+        Self::defaults(name("agent"), name("environment"))?.overlaid([&table])
     }
 
     /// Every value, as TOML.
@@ -288,18 +286,14 @@ impl Config {
         table
     }
 
-    /// The same with a table's values in the place of its own.
+    /// The same with the values of some tables in the place of its own, the last one's before all others'. They are checked
+    /// together: each may need the others.
     ///
     /// # Errors
     /// [`ConfigError`] names the key and the mend.
-    pub fn overlaid(self, over: &Table) -> Result<Self, ConfigError> {
+    pub fn overlaid<'a>(self, overs: impl IntoIterator<Item = &'a Table>) -> Result<Self, ConfigError> {
         let mut table = self.table();
-        overlay(&mut table, over, "")?;
-        self.put(table)
-    }
-
-    /// The configuration of a whole table, checked.
-    fn put(self, table: Table) -> Result<Self, ConfigError> {
+        overs.into_iter().try_for_each(|over| overlay(&mut table, over, ""))?;
         let (settings, agent) =
             table.into_iter().partition::<Table, _>(|(key, _)| !self.agent.contains_key(key));
         let settings: Settings = section(settings, "the run's settings")?;

@@ -3,7 +3,7 @@
 mod support;
 
 use std::{
-    collections::BTreeSet,
+    collections::{BTreeMap, BTreeSet},
     fs::{self, File},
     path::{Path, PathBuf},
     process::Stdio,
@@ -13,6 +13,7 @@ use std::{
 };
 
 use inroads::{
+    config::Config,
     evidence::{self, EvidenceError, Plan, Shard, State, Told, Wanted, Worker},
     session,
 };
@@ -273,6 +274,7 @@ fn slips_in_an_experiment_file_are_named_with_the_mend() {
 #[test]
 fn every_experiment_of_the_repository_can_be_run() {
     let mut count = 0;
+    let mut shared: BTreeMap<PathBuf, Config> = BTreeMap::new();
     for entry in fs::read_dir(experiments()).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
@@ -286,6 +288,8 @@ fn every_experiment_of_the_repository_can_be_run() {
         assert!(!plan.experiment.thesis.is_empty() && !plan.experiment.claims.is_empty(), "{name}");
         for run in &plan.runs {
             assert!(run.steps > 0 && run.ms_per_step > 0.0, "{name}: {} has no price", run.name);
+            let other = shared.entry(run.path.clone()).or_insert_with(|| run.config.clone());
+            assert!(*other == run.config, "{name}: {} is another run in another figure", run.name);
             session::build(&run.config).unwrap_or_else(|error| panic!("{name}: {}: {error}", run.name));
         }
         let arms = plan.experiment.arms.len();

@@ -56,6 +56,12 @@ fn chains_with_every_kind_of_set_subgoal_and_choice() {
         ("initiation.classifier", &["nearest", "svm"]),
     ];
     all_train("dsc-tabular", "corridor-5", 12, &keys);
+    let keys: [(&str, &[&str]); 3] = [
+        ("chain.subgoals", &["sample", "dynamic_programming"]),
+        ("chain.explore", &["task", "events"]),
+        ("chain.lessons", &["all", "own"]),
+    ];
+    all_train("robust-dsc-tabular", "corridor-5", 12, &keys);
     // A network of one class only is everywhere, so it makes no dual sets.
     let keys: [(&str, &[&str]); 3] = [
         ("initiation.sets", &["binary", "weighted"]),

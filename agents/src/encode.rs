@@ -100,7 +100,8 @@ impl Encode for () {
 /// The authors feed raw states. This is what `Spec` makes free, and every agent of the project gets the same.
 #[derive(Clone, Debug)]
 pub struct Scaled {
-    columns: Vec<Column>,
+    /// Of each component that is read its index, and how.
+    columns: Vec<(usize, Column)>,
     width: usize,
 }
 
@@ -117,18 +118,27 @@ enum Column {
 impl Scaled {
     /// The encoder for a space of vectors. A dimension without finite bounds is passed on as it is.
     pub fn new(space: &Space) -> Self {
-        let columns: Vec<_> = space
-            .dimensions()
-            .iter()
-            .map(|d| match d.kind {
+        Self::of(space, 0..space.dimensions().len())
+    }
+
+    /// The encoder for some components of a space of vectors.
+    ///
+    /// # Panics
+    /// When the space has no such component.
+    pub fn of(space: &Space, dims: impl IntoIterator<Item = usize>) -> Self {
+        let column = |dim: usize| {
+            let d = &space.dimensions()[dim];
+            let column = match d.kind {
                 Kind::Angle => Column::Angle,
                 Kind::Linear if d.low.is_finite() && d.high > d.low && d.high.is_finite() => {
                     Column::Linear { centre: f32::midpoint(d.low, d.high), scale: 2.0 / (d.high - d.low) }
                 }
                 Kind::Linear => Column::Linear { centre: 0.0, scale: 1.0 },
-            })
-            .collect();
-        let width = columns.iter().map(|c| if matches!(c, Column::Angle) { 2 } else { 1 }).sum();
+            };
+            (dim, column)
+        };
+        let columns: Vec<_> = dims.into_iter().map(column).collect();
+        let width = columns.iter().map(|(_, c)| if matches!(c, Column::Angle) { 2 } else { 1 }).sum();
         Self { columns, width }
     }
 }
@@ -145,7 +155,8 @@ impl Encoder<Vec<f32>> for Scaled {
                 *slot = value;
             }
         };
-        for (column, &x) in self.columns.iter().zip(observation) {
+        for (dim, column) in &self.columns {
+            let x = observation[*dim];
             match column {
                 Column::Linear { centre, scale } => put((x - centre) * scale),
                 Column::Angle => {
@@ -203,5 +214,9 @@ mod tests {
         assert_eq!(row.len(), 4);
         assert_eq!((row[0], row[1], row[3]), (1.0, 1.0, 7.0));
         assert!(row[2].abs() < 1e-6);
+        let some = Scaled::of(&space, [2, 0]);
+        let mut row = vec![0.0; some.width()];
+        some.write(&vec![4.0, 0.0, 7.0], &mut row);
+        assert_eq!(row, [7.0, 0.0]);
     }
 }

@@ -32,8 +32,8 @@ type Dsc = Hierarchy<
     Chaining<Vec<f32>, usize, Binary<Vec<f32>, Nearest>, PerSkill<TabularQ>, TabularOverSkills>,
 >;
 
-fn agent(env: &impl Environment) -> Dsc {
-    let config = ChainConfig {
+fn usual() -> ChainConfig {
+    ChainConfig {
         max_skills: 100,
         gestation: 1,
         segment: 3,
@@ -43,7 +43,10 @@ fn agent(env: &impl Environment) -> Dsc {
         pretrain: 50,
         goal_first: true,
         ..ChainConfig::default()
-    };
+    }
+}
+
+fn agent(env: &impl Environment, config: &ChainConfig) -> Dsc {
     let tables = TabularConfig { discount: 0.9, ..TabularConfig::default() };
     let policy = PerSkill::new(
         TabularQ::new(2, &tables),
@@ -54,16 +57,25 @@ fn agent(env: &impl Environment) -> Dsc {
     let initiation = Binary::new(Arc::new(Select::new(&env.spec().place)), Nearest::new(0.25), 100);
     let epsilon = Epsilon { start: 0.5, end: 0.1, decisions: 200 };
     let over = TabularOverSkills::new(0.5, epsilon);
-    Hierarchy::new(Chaining::new(&config, env.spec(), initiation, policy, over), 10_000)
+    Hierarchy::new(Chaining::new(config, env.spec(), initiation, policy, over), 10_000)
 }
 
 /// Trains in a world, and tells in which episodes skills were born.
 fn train_in(
+    env: impl Environment<Observation = Vec<f32>, Action = usize>,
+    seed: u64,
+    episodes: u64,
+) -> (Dsc, Vec<(u64, usize)>) {
+    train_with(&usual(), env, seed, episodes)
+}
+
+fn train_with(
+    config: &ChainConfig,
     mut env: impl Environment<Observation = Vec<f32>, Action = usize>,
     seed: u64,
     episodes: u64,
 ) -> (Dsc, Vec<(u64, usize)>) {
-    let mut agent = agent(&env);
+    let mut agent = agent(&env, config);
     let mut births = Vec::new();
     for number in 0..episodes {
         let mut ctx = Context::training(Seed(seed), number);
@@ -279,4 +291,23 @@ fn two_starts_grow_two_branches() {
         branches.sort();
         assert_eq!(branches, [[0, 1, 2, 3], [5, 6, 7, 8]], "seed {seed}");
     }
+}
+
+/// Two trajectories beget a skill, and every other one begins at the other end: together they make one set on either side
+/// of the goal, told apart by their starts a set each.
+#[test]
+fn starts_far_apart_begin_branches_of_their_own() {
+    let sides = |branch: f32| {
+        let config = ChainConfig { gestation: 2, branch, ..usual() };
+        let (agent, _) = train_with(&config, TimeLimit::new(Fork::new(), 50), 0, 80);
+        let to_goal = agent.skills().into_iter().filter(|skill| skill.enters.is_none());
+        let side = |k: u32, cells: [usize; 2]| {
+            cells.iter().any(|cell| agent.members(&vec![*cell as f32])[k as usize - 1])
+        };
+        to_goal.map(|skill| (side(skill.skill, [2, 3]), side(skill.skill, [5, 6]))).collect::<Vec<_>>()
+    };
+    assert_eq!(sides(0.0)[0], (true, true));
+    let mut apart = sides(1.0);
+    apart.sort_unstable();
+    assert_eq!(apart, [(false, true), (true, false)]);
 }

@@ -1,9 +1,9 @@
 //! Flat baselines for continuous actions: DDPG, TD3, and TD3 that reads the task's goal and learns in hindsight.
 
 use inroads_agents::{
-    Aimed, Curious, Encode, Flat, Practice, Replay,
+    Aimed, Curious, Encode, Flat, Learner, Practice, Replay,
     ddpg::{Ddpg, DdpgConfig},
-    goal::Ground,
+    goal::{Ground, Region},
     hindsight::HindsightConfig,
     nets::Backend,
     td3::{Td3, Td3Config},
@@ -165,6 +165,22 @@ fn td3_her(
     seed: Seed,
 ) -> Result<BoxedAgent<Vector, Vector>, ConfigError> {
     let config: AimedTd3Config = section(settings.clone(), "td3-her")?;
+    let AimedTd3Config { memory, policy, hindsight, returns } = &config;
+    let practice = Practice::new(Replay::new(memory.capacity).spanning(*returns), memory.pace());
+    aimed(spec, hindsight, practice, memory.capacity, |goal| {
+        let mut rng = seed.stream("initialise", 0);
+        Td3::new(scaled(spec), goal, spec.action.len(), policy, backend, &mut rng)
+    })
+}
+
+/// A learner alone on its way to the task's goal. `build` makes one that reads goals of so many numbers.
+pub(super) fn aimed<L: Learner<Vector, Vector, Region> + 'static>(
+    spec: &Spec,
+    hindsight: &HindsightConfig,
+    practice: Practice<Region>,
+    capacity: usize,
+    build: impl FnOnce(usize) -> L,
+) -> Result<BoxedAgent<Vector, Vector>, ConfigError> {
     let aim = spec.goal.as_ref().and_then(|goal| Some((goal, Ground::over(spec, &goal.dims)?)));
     let Some((goal, ground)) = aim else {
         let why = format!(
@@ -172,16 +188,11 @@ fn td3_her(
              such as point-reacher, or the agent `td3`",
             spec.name
         );
-        return named("td3-her", Err(why));
+        return named("goal", Err(why));
     };
     let tolerance = goal.tolerance;
     let aim = ground.ball(goal.at.clone(), tolerance);
     let achievement = move |s: &Vector| ground.ball(ground.place(s), tolerance);
-    let mut rng = seed.stream("initialise", 0);
-    let learner = Td3::new(scaled(spec), aim.width(), spec.action.len(), &config.policy, backend, &mut rng);
-    let capacity = config.memory.capacity;
-    let replay = Replay::new(capacity).spanning(config.returns);
-    let practice = Practice::new(replay, config.memory.pace());
-    let agent = Aimed::new(learner, aim, Box::new(achievement), config.hindsight, practice, capacity);
-    Ok(Box::new(agent))
+    let learner = build(aim.width());
+    Ok(Box::new(Aimed::new(learner, aim, Box::new(achievement), hindsight.clone(), practice, capacity)))
 }

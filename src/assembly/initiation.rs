@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     Vector,
-    shared::{choices, named, place, scaled},
+    shared::{FeatureSet, choices, features, named, scaled},
 };
 use crate::config::ConfigError;
 
@@ -73,6 +73,8 @@ pub(super) struct InitiationConfig {
     pub(super) sets: String,
     /// The classifier of the first two; `neural` is one of `binary` and `weighted`.
     pub(super) classifier: ClassifierKind,
+    /// What the classifier reads of what is seen, unless it is `neural`, which reads everything.
+    pub(super) features: FeatureSet,
     /// Examples of either class that a skill remembers.
     pub(super) examples: usize,
     /// The machine; of dual sets the pessimistic one.
@@ -104,6 +106,7 @@ impl Default for InitiationConfig {
         Self {
             sets: "binary".into(),
             classifier: ClassifierKind::Svm,
+            features: FeatureSet::Place,
             examples: 500,
             svm: SvmConfig::default(),
             optimistic_nu: 0.01,
@@ -169,12 +172,16 @@ impl InitiationConfig {
 
 fn binary<A: 'static>(plan: &Plan<'_>, config: &InitiationConfig) -> Sets<A> {
     match config.classifier {
-        ClassifierKind::Svm => {
-            Box::new(Binary::new(place(plan.spec), Svm::new(config.svm.clone()), config.examples))
-        }
-        ClassifierKind::Nearest => {
-            Box::new(Binary::new(place(plan.spec), Nearest::new(config.radius), config.examples))
-        }
+        ClassifierKind::Svm => Box::new(Binary::new(
+            features(plan.spec, config.features),
+            Svm::new(config.svm.clone()),
+            config.examples,
+        )),
+        ClassifierKind::Nearest => Box::new(Binary::new(
+            features(plan.spec, config.features),
+            Nearest::new(config.radius),
+            config.examples,
+        )),
         ClassifierKind::Neural => {
             Box::new(Binary::new(scaled(plan.spec), neural(plan, config), config.examples))
         }
@@ -186,12 +193,22 @@ fn dual<A: 'static>(plan: &Plan<'_>, config: &InitiationConfig) -> Sets<A> {
         // A network is refused for these (`check`).
         ClassifierKind::Svm | ClassifierKind::Neural => {
             let (optimistic, pessimistic) = (Svm::new(config.optimistic()), Svm::new(config.svm.clone()));
-            Box::new(Dual::new(place(plan.spec), optimistic, pessimistic, config.examples))
+            Box::new(Dual::new(
+                features(plan.spec, config.features),
+                optimistic,
+                pessimistic,
+                config.examples,
+            ))
         }
         ClassifierKind::Nearest => {
             let (optimistic, pessimistic) =
                 (Nearest::new(config.optimistic_radius), Nearest::new(config.radius));
-            Box::new(Dual::new(place(plan.spec), optimistic, pessimistic, config.examples))
+            Box::new(Dual::new(
+                features(plan.spec, config.features),
+                optimistic,
+                pessimistic,
+                config.examples,
+            ))
         }
     }
 }
@@ -223,9 +240,12 @@ fn weighted<A: 'static, E: Evaluator<Vector, A, ()> + Clone + 'static>(
         ClassifierKind::Neural => {
             Box::new(Weighted::new(&config.weighted, ivf, scaled(plan.spec), neural(plan, config)))
         }
-        ClassifierKind::Svm | ClassifierKind::Nearest => {
-            Box::new(Weighted::new(&config.weighted, ivf, place(plan.spec), Odds::new(&config.odds)))
-        }
+        ClassifierKind::Svm | ClassifierKind::Nearest => Box::new(Weighted::new(
+            &config.weighted,
+            ivf,
+            features(plan.spec, config.features),
+            Odds::new(&config.odds),
+        )),
     }
 }
 

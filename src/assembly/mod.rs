@@ -20,6 +20,7 @@ mod proto;
 mod recurrent;
 mod robust;
 mod shared;
+mod suits;
 
 use inroads_agents::nets::Backend;
 use inroads_discovery::Skilled;
@@ -29,6 +30,8 @@ use inroads_envs::{
     world::Layout,
 };
 use toml::Table;
+
+pub use suits::suits;
 
 use crate::config::ConfigError;
 

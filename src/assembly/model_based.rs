@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use inroads_agents::{
-    Mpc,
-    mpc::{FreeBody, MpcConfig, Plain, View},
+    Mpc, Practice, Replay,
+    hindsight::HindsightConfig,
+    mpc::{FreeBody, MpcConfig, Plain, Planned, PlannedConfig, Reward, View},
     nets::Backend,
+    td3::{Td3, Td3Config},
 };
 use inroads_envs::{Kind, Seed, Spec};
 use serde::{Deserialize, Serialize};
@@ -13,20 +15,33 @@ use toml::Table;
 
 use super::{
     AgentEntry, BoxedAgent, Vector,
-    shared::{named, table},
+    actor_critic::aimed,
+    shared::{MemoryConfig, named, scaled, table},
 };
 use crate::config::{ConfigError, section};
 
-pub(super) const ENTRIES: &[AgentEntry] = &[AgentEntry {
-    name: "mpc",
-    about: "the flat model-based baseline: plans towards the goal with a learned model of the dynamics",
-    defaults: || table(&FlatMpcConfig::default()),
-    check: |t| named("mpc", section::<FlatMpcConfig>(t.clone(), "mpc")?.control.check()),
-    continuous: Some(mpc),
-    discrete: None,
-    annotated: None,
-    pictured: None,
-}];
+pub(super) const ENTRIES: &[AgentEntry] = &[
+    AgentEntry {
+        name: "mpc",
+        about: "the flat model-based baseline: plans towards the goal with a learned model of the dynamics",
+        defaults: || table(&FlatMpcConfig::default()),
+        check: |t| named("mpc", section::<FlatMpcConfig>(t.clone(), "mpc")?.control.check()),
+        continuous: Some(mpc),
+        discrete: None,
+        annotated: None,
+        pictured: None,
+    },
+    AgentEntry {
+        name: "mpc-her",
+        about: "the same with an infinite horizon: plans end with the values of TD3 that learns in hindsight",
+        defaults: || table(&AimedMpcConfig::default()),
+        check: |t| section::<AimedMpcConfig>(t.clone(), "mpc-her")?.check(),
+        continuous: Some(mpc_her),
+        discrete: None,
+        annotated: None,
+        pictured: None,
+    },
+];
 
 /// In which frame the model reads states.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -46,6 +61,42 @@ pub(super) enum Frame {
 struct FlatMpcConfig {
     frame: Frame,
     control: MpcConfig,
+}
+
+/// Settings of `mpc-her`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct AimedMpcConfig {
+    frame: Frame,
+    memory: MemoryConfig,
+    policy: Td3Config,
+    hindsight: HindsightConfig,
+    plans: PlannedConfig,
+}
+
+impl Default for AimedMpcConfig {
+    fn default() -> Self {
+        Self {
+            frame: Frame::default(),
+            memory: MemoryConfig { capacity: 300_000, updates_per_step: 0.5, warm_up: 10_000 },
+            policy: Td3Config::default(),
+            hindsight: HindsightConfig::default(),
+            plans: PlannedConfig { reward: Reward::Sparse, ..PlannedConfig::default() },
+        }
+    }
+}
+
+impl AimedMpcConfig {
+    fn check(&self) -> Result<(), ConfigError> {
+        named("memory", self.memory.check())?;
+        named("policy", self.policy.check())?;
+        named("hindsight", self.hindsight.check())?;
+        if self.plans.values && self.plans.reward == Reward::Dense {
+            let why = "plans.values are those of -1 a step, and plans.reward is \"dense\"; set plans.reward = \"sparse\"";
+            return named("plans", Err(why.into()));
+        }
+        named("plans", self.plans.check())
+    }
 }
 
 /// How a model reads what this domain shows.
@@ -78,6 +129,29 @@ fn mpc(
     let mut rng = seed.stream("initialise", 0);
     let view = view(spec, config.frame);
     Ok(Box::new(Mpc::new(view, spec.action.len(), goal, &config.control, backend, &mut rng)))
+}
+
+fn mpc_her(
+    spec: &Spec,
+    settings: &Table,
+    backend: Backend,
+    seed: Seed,
+) -> Result<BoxedAgent<Vector, Vector>, ConfigError> {
+    let config: AimedMpcConfig = section(settings.clone(), "mpc-her")?;
+    let AimedMpcConfig { frame, memory, policy, hindsight, plans } = &config;
+    let actions = spec.action.len();
+    aimed(
+        spec,
+        hindsight,
+        Practice::new(Replay::new(memory.capacity), memory.pace()),
+        memory.capacity,
+        |goal| {
+            let mut rng = seed.stream("initialise", 0);
+            let td3 = Td3::new(scaled(spec), goal, actions, policy, backend, &mut rng);
+            let mut rng = seed.stream("initialise", 3);
+            Planned::new(td3, view(spec, *frame), actions, plans, backend, &mut rng)
+        },
+    )
 }
 
 #[cfg(test)]

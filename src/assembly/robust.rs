@@ -10,7 +10,7 @@ use inroads_agents::{
 };
 use inroads_discovery::{
     ChainConfig, Chaining, Hierarchy, PerSkill, Shared,
-    chain::{ChainAt, Explore, Lessons, Places, Subgoals},
+    chain::{ChainAt, Explore, Lessons, OptionReward, Places, Subgoals},
     over_skills::Scan,
 };
 use inroads_envs::{Seed, Spec};
@@ -68,8 +68,8 @@ impl Default for ControlConfig {
 impl Default for RobustConfig {
     fn default() -> Self {
         Self {
-            memory: MemoryConfig { capacity: 300_000, updates_per_step: 1.0, warm_up: 10_000 },
-            policy: Td3Config { actor_rate: 3e-4, critic_rate: 3e-4, random: 0.2, ..Td3Config::default() },
+            memory: MemoryConfig { capacity: 300_000, updates_per_step: 0.5, warm_up: 10_000 },
+            policy: Td3Config { discount: 0.98, random: 0.2, ..Td3Config::default() },
             control: ControlConfig::default(),
             chain: ChainConfig {
                 gestation: 5,
@@ -78,6 +78,7 @@ impl Default for RobustConfig {
                 initiation_successes: 3,
                 timeout: 200,
                 chain_at: ChainAt::InitiationEnd,
+                option_reward: OptionReward::Dense,
                 lessons: Lessons::Own,
                 pretrain: 0,
                 subgoals: Subgoals::Sample,
@@ -111,9 +112,13 @@ impl RobustConfig {
                         false, or chain.subgoals = \"sample\""
                 .into());
         }
-        if *model && plans.values && plans.reward == Reward::Dense {
-            return Err("plans.reward is \"dense\" and plans.values are those of sparse rewards; set plans.values = false, or \
-                        plans.reward = \"sparse\""
+        let same = match plans.reward {
+            Reward::Dense => OptionReward::Dense,
+            Reward::Sparse => OptionReward::Sparse,
+        };
+        if *model && plans.values && self.chain.option_reward != same {
+            return Err("plans.values are what chain.option_reward pays in the long run, and plans.reward is of the other kind; set \
+                        both to \"dense\" or both to \"sparse\", or plans.values = false"
                 .into());
         }
         Ok(())

@@ -90,9 +90,30 @@ pub(super) fn scaled(spec: &Spec) -> Arc<dyn Encoder<Vector> + Send + Sync> {
     Arc::new(Scaled::new(&spec.observation))
 }
 
-/// Where one is, as numbers of the domain: what initiation sets are learned on (authors: x and y).
-pub(super) fn place(spec: &Spec) -> Arc<dyn Encoder<Vector> + Send + Sync> {
-    Arc::new(Select::new(&spec.place))
+/// Which of what is seen initiation sets are learned on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum FeatureSet {
+    /// Where one is (authors: x and y); where a key matters, whether one has it too.
+    Place,
+    /// All that is seen.
+    All,
+}
+
+/// The features that initiation sets are learned on: as numbers of the domain where all have one unit, else each scaled by
+/// its usual range, since a metre is no key (`decisions.md`).
+pub(super) fn features(spec: &Spec, which: FeatureSet) -> Arc<dyn Encoder<Vector> + Send + Sync> {
+    let seen = spec.observation.dimensions();
+    let dims = match which {
+        FeatureSet::Place => spec.place.clone(),
+        FeatureSet::All => (0..seen.len()).collect(),
+    };
+    let mut units = dims.iter().map(|dim| (seen[*dim].unit, seen[*dim].kind));
+    let first = units.next();
+    match units.all(|unit| Some(unit) == first) {
+        true => Arc::new(Select::new(&dims)),
+        false => Arc::new(Scaled::of(&spec.observation, dims)),
+    }
 }
 
 /// How many choices there are.
@@ -100,5 +121,33 @@ pub(super) fn choices(spec: &Spec) -> usize {
     match &spec.action {
         inroads_envs::Space::Discrete(n) => *n,
         other => other.len(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use inroads_envs::{
+        Environment,
+        maze::{
+            PointMaze,
+            catalogue::{LOCK_AND_KEY, U_MAZE},
+        },
+    };
+
+    use super::*;
+
+    #[test]
+    fn metres_stay_metres_and_a_key_is_as_much_as_half_the_map() {
+        let row = |maze, which, seen: &[f32]| {
+            let encoder = features(PointMaze::new(maze).unwrap().spec(), which);
+            let mut row = vec![0.0; encoder.width()];
+            encoder.write(&seen.to_vec(), &mut row);
+            row
+        };
+        assert_eq!(row(&U_MAZE, FeatureSet::Place, &[4.0, 8.0, 0.5, 0.0, 0.0, 0.0]), [4.0, 8.0]);
+        // Free space is from -3 to 11; the heading is read as a point on a circle.
+        let seen = [4.0, 11.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        assert_eq!(row(&LOCK_AND_KEY, FeatureSet::Place, &seen), [0.0, 1.0, -1.0]);
+        assert_eq!(row(&LOCK_AND_KEY, FeatureSet::All, &seen)[..5], [0.0, 1.0, -1.0, 0.0, 1.0]);
     }
 }

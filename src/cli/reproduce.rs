@@ -68,7 +68,7 @@ pub(super) fn reproduce(arguments: &Arguments) -> Done {
         // What could not go on is missing in the picture, which says so.
         let default = || match plan.scale {
             1.0 => Path::new(RESULTS).join(&plan.experiment.figure),
-            _ => plan.folder.join("figure"),
+            _ => plan.figure.clone(),
         };
         let out = arguments.out.clone().unwrap_or_else(default);
         report(&evidence::draw(&plan, &out, &command(arguments))?, &out);

@@ -2,6 +2,7 @@
 
 mod goals;
 mod graph;
+mod skills;
 mod truth;
 
 pub use goals::Questions;
@@ -15,7 +16,7 @@ use inroads_envs::{maze::Picture, registry};
 
 use crate::{
     config::Settings,
-    figures::{self, Map, Panel, Pose, Raster, Rect, Series, SetPicture, Trajectory},
+    figures::{self, Map, Panel, Pose, Raster, Rect, Series, Trajectory},
     run::{Run, RunError},
     session::{self, EpisodeMetrics, Watched},
 };
@@ -26,8 +27,6 @@ const RASTER: usize = 160;
 const BORDER: f32 = 0.75;
 /// Episodes over which curves are smoothed.
 const SMOOTHING: usize = 20;
-/// Initiation sets in one figure.
-const SETS: usize = 25;
 /// Solution trajectories in one figure.
 const TRAJECTORIES: usize = 5;
 
@@ -54,6 +53,7 @@ impl View {
             bounds: Rect { min: free.min.map(|x| x - BORDER), max: free.max.map(|x| x + BORDER) },
             goal: has_goal.then(|| (point(picture.goal), picture.tolerance as f32)),
             starts: picture.starts.iter().map(|s| point(*s)).collect(),
+            key: picture.key.map(point),
         };
         Some(Self { picture, map })
     }
@@ -70,6 +70,15 @@ impl View {
             change(&mut seen);
             run.session.members(&seen)
         })
+    }
+
+    /// The same with the key held; nothing where there is no key.
+    pub fn sets_with_key(&self, run: &Run) -> Vec<Raster> {
+        if self.picture.key.is_none() {
+            return Vec::new();
+        }
+        let holding = |seen: &Vec<f32>| self.picture.holding_at([seen[0], seen[1]].map(f64::from));
+        self.rasters(run, |seen| holding(seen).map_or_else(Vec::new, |seen| run.session.members(&seen)))
     }
 
     /// Where other skills may aim in order to enter the set of each skill of a run.
@@ -110,28 +119,8 @@ pub fn figures(run: &mut Run, frozen: &[Watched]) -> Result<(), RunError> {
     goals::growth(run)?;
     graph::graph(run)?;
     let Some(view) = View::of(&run.config.settings) else { return Ok(()) };
-    let skills = run.session.skills();
-    if !skills.is_empty() {
-        let mut most: Vec<_> = skills.iter().zip(view.sets(run)).collect();
-        // Where there are more than one could look at, those that are used.
-        most.sort_by_key(|(skill, _)| std::cmp::Reverse(skill.executions));
-        most.truncate(SETS);
-        most.sort_by_key(|(skill, _)| skill.skill);
-        let pictures: Vec<_> = most
-            .into_iter()
-            .map(|(skill, region)| SetPicture {
-                title: title(skill),
-                subtitle: format!(
-                    "covers {:.0} % of free space",
-                    100.0 * region.share_of_free_space(&view.map)
-                ),
-                colour: skill.skill as usize,
-                region,
-                ..SetPicture::default()
-            })
-            .collect();
-        figures::sets(folder.join("initiation-sets.png"), &view.map, &pictures, "")?;
-    }
+    skills::sets(run, &view)?;
+    skills::tree(run, &view)?;
     let trajectories: Vec<_> = frozen
         .iter()
         .take(TRAJECTORIES)

@@ -102,7 +102,7 @@ impl Claim {
             seeds,
             means: means.map(|side| (side.name.to_owned(), mean_interval(&side.numbers()))).collect(),
             steps: rests_on().map(|run| run.steps).sum(),
-            core_hours: rests_on().map(|run| run.wall_seconds).sum::<f64>() / 3600.0,
+            core_hours: rests_on().fold(0.0, |sum, run| sum + run.wall_seconds) / 3600.0,
             values: sides.iter().map(|side| (side.name.to_owned(), side.values.clone())).collect(),
             commits,
         })
@@ -139,4 +139,73 @@ fn compared(better: &Side<'_>, worse: &Side<'_>, metric: Metric) -> (String, Opt
     }
     let estimate = superiority(&x, &y);
     (estimated, Some(estimate), Verdict::of(&estimate))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evidence::Quantity;
+
+    const SUCCESS: Metric = Metric { of: Quantity::TestSuccess, last: Some(5) };
+    const STEPS: Metric = Metric { of: Quantity::TestSteps, last: None };
+
+    fn run(seed: u64) -> RunRecord {
+        RunRecord {
+            domain: "maze".into(),
+            arm: "one".into(),
+            seed,
+            episodes: 10,
+            steps: 100,
+            wall_seconds: 1.0,
+            commit: "unknown".into(),
+            value: None,
+            curves: BTreeMap::new(),
+        }
+    }
+
+    fn side<'a>(runs: &'a [RunRecord], asked: usize, values: &[f64]) -> Side<'a> {
+        let values = values.iter().zip(0..).map(|(value, seed)| (seed, *value)).collect();
+        Side { name: "one", label: "One", asked, done: runs.iter().collect(), values }
+    }
+
+    fn reaches(at_least: f64, on_seeds: u64) -> Claim {
+        Claim {
+            claim: "it does".into(),
+            domain: "maze".into(),
+            metric: None,
+            better: None,
+            worse: None,
+            arm: Some("one".into()),
+            at_least: Some(at_least),
+            on_seeds: Some(on_seeds),
+        }
+    }
+
+    #[test]
+    fn a_number_on_some_seeds_is_contradicted_only_when_the_rest_cannot_make_up_for_it() {
+        let runs: Vec<RunRecord> = (0..3).map(run).collect();
+        let verdict = |done: usize, values: &[f64], metric| {
+            reaches(0.9, 2).reached(&side(&runs[..done], 3, values), metric).2
+        };
+        assert_eq!(verdict(2, &[1.0, 0.9], SUCCESS), Verdict::Supported);
+        assert_eq!(verdict(2, &[1.0, 0.0], SUCCESS), Verdict::Undetermined);
+        assert_eq!(verdict(2, &[0.8, 0.0], SUCCESS), Verdict::Contradicted);
+        assert_eq!(verdict(3, &[1.0, 0.8, 0.0], SUCCESS), Verdict::Contradicted);
+        // A run that is done and has no number does not reach it.
+        assert_eq!(verdict(3, &[1.0], SUCCESS), Verdict::Contradicted);
+        // Of steps it is at most so many.
+        assert_eq!(verdict(2, &[0.5, 0.9], STEPS), Verdict::Supported);
+        let (words, estimate, _) = reaches(0.9, 2).reached(&side(&runs, 3, &[1.0, 1.0, 0.0]), SUCCESS);
+        assert_eq!(words, "share of seeds of One with ≥ 0.9, wanted on 2");
+        assert_eq!(estimate, Some(wilson(2, 3)));
+    }
+
+    #[test]
+    fn of_steps_fewer_are_better_and_nothing_comes_of_no_run() {
+        let (few, many) = (side(&[], 4, &[1.0, 2.0, 3.0, 4.0]), side(&[], 4, &[5.0, 6.0, 7.0, 8.0]));
+        assert_eq!(compared(&few, &many, STEPS).2, Verdict::Supported);
+        assert_eq!(compared(&few, &many, SUCCESS).2, Verdict::Contradicted);
+        assert_eq!(compared(&few, &side(&[], 4, &[]), STEPS).1, None);
+        assert_eq!(compared(&few, &many, STEPS).0, "P(One < One)");
+    }
 }

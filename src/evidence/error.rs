@@ -37,7 +37,7 @@ pub enum EvidenceError {
         /// The domain.
         domain: String,
         /// What is wrong.
-        why: ConfigError,
+        why: Box<ConfigError>,
     },
     /// Runs are there that the file does not ask for any more.
     #[error(

@@ -118,7 +118,7 @@ fn costs(plan: &Plan, runs: &[RunRecord]) -> Vec<ArmCost> {
         let (domain, arm) = (&plan.experiment.domains[domain].name, &plan.experiment.arms[arm].name);
         let own = || runs.iter().filter(|run| run.domain == *domain && run.arm == *arm);
         let (steps, seconds) =
-            (own().map(|run| run.steps).sum(), own().map(|run| run.wall_seconds).sum::<f64>());
+            (own().map(|run| run.steps).sum(), own().fold(0.0, |sum, run| sum + run.wall_seconds));
         ArmCost {
             domain: domain.clone(),
             arm: arm.clone(),

@@ -35,6 +35,8 @@ pub struct Experiment {
     /// What is known of how it came out, for the reader; may be long.
     #[serde(default)]
     pub note: String,
+    /// The figure whose runs these are, where another has them already: domains and arms of the same names are the same.
+    pub runs: Option<String>,
     /// How many seeds.
     pub seeds: u64,
     /// The first of them.
@@ -302,6 +304,7 @@ impl Experiment {
 
     fn check(&self) -> Result<(), String> {
         plain("figure", &self.figure)?;
+        self.runs.iter().try_for_each(|figure| plain("runs", figure))?;
         at_least_one("seeds", self.seeds)?;
         names("domain", self.domains.iter().map(|domain| domain.name.as_str()))?;
         names("arm", self.arms.iter().map(|arm| arm.name.as_str()))?;

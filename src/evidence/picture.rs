@@ -66,7 +66,10 @@ fn choose(plan: &Plan, domain: usize, arms: &[String], choice: Choice) -> Result
                 done.sort_by(|x, y| x.0.total_cmp(&y.0));
                 done = done.drain(..).skip(seeds.saturating_sub(1) / 2).take(1).collect();
                 let seed = done.first().map_or_else(String::new, |(_, seed, _)| format!("seed {seed}, "));
-                format!("{seed}the median of {seeds} seeds by {}", metric.words())
+                match seeds {
+                    1 => format!("{seed}the only one that is done"),
+                    _ => format!("{seed}the median of {seeds} seeds by {}", metric.words()),
+                }
             }
             Choice::Each => {
                 done.truncate(MOST);
@@ -115,7 +118,7 @@ fn sets(
                 let target = skill.enters.map_or_else(|| "goal".to_owned(), |parent| parent.to_string());
                 let given = value.map_or_else(String::new, |value| format!(", {feature} = {value}"));
                 let covers = 100.0 * region.share_of_free_space(&view.map);
-                let overlap = first.get(index).map(|other| 100.0 * overlap(other, region));
+                let overlap = first.get(index).map(|other| 100.0 * other.overlap(region));
                 let overlap = overlap.map_or_else(String::new, |share| format!(", {share:.0} % in common"));
                 pictures.push(SetPicture {
                     title: format!(
@@ -151,14 +154,6 @@ fn trajectories(path: &Path, chosen: &mut Chosen, episodes: u64) -> Result<Optio
     let note = format!("{}. Steps: {told_steps}", note(std::slice::from_ref(chosen)));
     figures::trajectories(path, &view.map, &paths.collect::<Vec<_>>(), &note)?;
     Ok(Some(Shown { episodes: steps, ..told(path, chosen) }))
-}
-
-/// Of two sets: what both have, as a share of what either has.
-fn overlap(one: &Raster, other: &Raster) -> f64 {
-    let cells = || one.inside.iter().zip(&other.inside);
-    let (both, either) =
-        (cells().filter(|(a, b)| **a && **b).count(), cells().filter(|(a, b)| **a || **b).count());
-    both as f64 / either.max(1) as f64
 }
 
 /// Which runs are shown, and by what rule.

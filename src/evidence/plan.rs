@@ -35,6 +35,8 @@ pub struct Plan {
     pub scale: f64,
     /// The folder of its runs.
     pub folder: PathBuf,
+    /// Where a trial is drawn, which makes no claim.
+    pub figure: PathBuf,
     /// The runs: the first seed of all, then the second, so that what is done first can already be compared.
     pub runs: Vec<Asked>,
 }
@@ -96,13 +98,17 @@ impl Plan {
             let why = format!("--scale is {scale}; it multiplies budgets, so give a number above 0");
             return Err(EvidenceError::File { path: file.to_owned(), why });
         }
-        let mut name = experiment.figure.clone();
-        if scale != 1.0 {
-            // What is computed with another budget never lies among what claims rest on.
-            name += &format!("-x{scale}");
-        }
-        let mut plan =
-            Self { file: file.to_owned(), scale, folder: runs.join(name), runs: Vec::new(), experiment };
+        // What is computed with another budget never lies among what claims rest on.
+        let trial = if scale == 1.0 { String::new() } else { format!("-x{scale}") };
+        let figure = experiment.runs.as_ref().unwrap_or(&experiment.figure);
+        let mut plan = Self {
+            file: file.to_owned(),
+            scale,
+            folder: runs.join(format!("{figure}{trial}")),
+            figure: runs.join(format!("{}{trial}", experiment.figure)).join("figure"),
+            runs: Vec::new(),
+            experiment,
+        };
         for nth in 0..plan.experiment.seeds.min(seeds.unwrap_or(u64::MAX)) {
             let mut of_seed = plan.of_seed(nth)?;
             // Another one first each time: else a shard could get all runs of the dearest arm.
@@ -162,7 +168,7 @@ impl Plan {
             path: self.file.clone(),
             arm: arm.name.clone(),
             domain: domain.name.clone(),
-            why,
+            why: Box::new(why),
         })?;
         let name = format!("{}/{}/{seed}", domain.name, arm.name);
         Ok(Asked {
@@ -189,7 +195,7 @@ impl Plan {
             tables.chain(arms.iter().map(|arm| &arm.set)).chain(rules.map(|rule| &rule.set)).collect();
         let said = self.said(domain, seed);
         Config::asked(agent, &domain.environment, |config| {
-            tables.iter().copied().chain([&said]).try_fold(config, |config, table| config.overlaid(table))
+            config.overlaid(tables.iter().copied().chain([&said]))
         })
     }
 
@@ -215,5 +221,20 @@ impl Plan {
 
     fn scaled(&self, number: u64) -> u64 {
         ((number as f64 * self.scale).round() as u64).max(1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shard_is_a_number_below_another() {
+        let read = |text: &str| text.parse::<Shard>().ok();
+        assert_eq!(read("0/1"), Some(Shard { index: 0, of: 1 }));
+        assert_eq!(read("7/8"), Some(Shard { index: 7, of: 8 }));
+        for wrong in ["8/8", "0/0", "1", "-1/2", "a/2", "1/2/3", ""] {
+            assert_eq!(read(wrong), None, "{wrong}");
+        }
     }
 }

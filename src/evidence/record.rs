@@ -198,3 +198,27 @@ fn lines(value: &Value) -> String {
     };
     format!("{{\n{}\n}}\n", parts.iter().map(part).collect::<Vec<_>>().join(",\n"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_curves_are_means_of_neighbours() {
+        let point = |n: u64| Point { episodes: n + 1, steps: 10 * (n + 1), value: n as f64 };
+        let curve: Vec<_> = (0..500).map(point).collect();
+        let thin = thinned(&curve);
+        assert_eq!((thin.len(), thin[0], thin[166]), (167, (3, 30, 1.0), (500, 5000, 498.5)));
+        assert_eq!(thinned(&curve[..200]).len(), 200);
+        assert!(thinned(&[]).is_empty());
+        assert_eq!((short(123_456.0), short(1.0 / 3.0)), (123_460.0, 0.33333));
+    }
+
+    #[test]
+    fn lists_have_a_line_an_entry_and_stay_json() {
+        let value = serde_json::json!({ "a": [{ "b": 1 }, { "b": 2 }], "c": [], "d": "x" });
+        let text = lines(&value);
+        assert_eq!(text.lines().count(), 8, "{text}");
+        assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), value);
+    }
+}

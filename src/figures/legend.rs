@@ -24,6 +24,7 @@ pub(super) enum Mark {
     /// Free space outside an initiation set.
     Outside,
     Goal,
+    Key,
     Start,
     /// An example of success.
     Positive,
@@ -80,7 +81,7 @@ impl Mark {
             Self::Curve(_) | Self::Level(_) => 34.0,
             Self::Line(_) => 26.0,
             Self::Inside(_) | Self::Outside => 27.0,
-            Self::Goal | Self::Start | Self::Dot(_) | Self::Region => 18.0,
+            Self::Goal | Self::Key | Self::Start | Self::Dot(_) | Self::Region => 18.0,
             Self::Positive | Self::Negative | Self::Dropped => 10.0,
             Self::Vertex | Self::Ring(_) | Self::Goals(_) | Self::Kept | Self::Distractor => 20.0,
             Self::Ramp => 42.0,
@@ -113,6 +114,7 @@ impl Mark {
                 maze::frame(canvas, swatch, WALL, 1.0);
             }
             Self::Goal => maze::goal(canvas, middle, 8.0),
+            Self::Key => maze::key(canvas, middle, 7.0),
             Self::Start => maze::start(canvas, middle, 7.5),
             Self::Positive => maze::positive(canvas, middle),
             Self::Negative => maze::negative(canvas, middle),

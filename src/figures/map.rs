@@ -43,6 +43,8 @@ pub struct Map {
     pub goal: Option<([f32; 2], f32)>,
     /// Where episodes begin.
     pub starts: Vec<[f32; 2]>,
+    /// Where a key lies.
+    pub key: Option<[f32; 2]>,
 }
 
 impl Map {

@@ -2,7 +2,7 @@
 
 use super::canvas::{Area, Canvas};
 use super::map::{Map, View};
-use super::palette::{Colour, FLOOR, GOAL, INK, WALL, WHITE, faint};
+use super::palette::{Colour, FLOOR, GOAL, INK, KEY, WALL, WHITE, faint};
 
 /// How strongly the inside of an initiation set is coloured.
 pub(super) const INSIDE: f32 = 0.5;
@@ -24,8 +24,11 @@ pub(super) fn starts(canvas: &mut Canvas, map: &Map, view: &View) {
     }
 }
 
-/// Where they should end.
+/// Where they should end, and the key that is fetched before.
 pub(super) fn goals(canvas: &mut Canvas, map: &Map, view: &View) {
+    if let Some(at) = map.key.filter(|at| is_finite(*at)) {
+        key(canvas, view.at(at), 7.0);
+    }
     if let Some((centre, radius)) = map.goal.filter(|(centre, _)| is_finite(*centre)) {
         goal(canvas, view.at(centre), (radius * view.scale).max(5.0));
     }
@@ -35,6 +38,12 @@ pub(super) fn goals(canvas: &mut Canvas, map: &Map, view: &View) {
 pub(super) fn goal(canvas: &mut Canvas, at: (f32, f32), radius: f32) {
     canvas.disc(at, radius + 1.5, WHITE);
     canvas.disc(at, radius, GOAL);
+}
+
+/// A blue disc.
+pub(super) fn key(canvas: &mut Canvas, at: (f32, f32), radius: f32) {
+    canvas.disc(at, radius + 1.5, WHITE);
+    canvas.disc(at, radius, KEY);
 }
 
 /// A dark diamond.

@@ -70,6 +70,6 @@ pub use movie::{Pose, movie};
 pub use palette::skill_name;
 pub use raster::Raster;
 pub use reliability::{Bin, Calibration, reliability};
-pub use sets::{SetPicture, sets};
+pub use sets::{SetPicture, sets, sets_in_columns};
 pub use summary::Summary;
 pub use trajectory::{Trajectory, trajectories};

@@ -27,6 +27,8 @@ pub(super) const WALL: Colour = rgb(163, 168, 175);
 pub(super) const FLOOR: Colour = rgb(241, 243, 246);
 /// The goal.
 pub(super) const GOAL: Colour = rgb(214, 39, 40);
+/// Where a key lies: blue, as in figure 3.2.
+pub(super) const KEY: Colour = rgb(31, 84, 196);
 
 /// A colour; `alpha` is 1 for opaque, 0 for invisible.
 #[derive(Clone, Copy, Debug, PartialEq)]

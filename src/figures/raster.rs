@@ -44,6 +44,27 @@ impl Raster {
         inside as f64 / free as f64
     }
 
+    /// The free cell of the region that is nearest to the mean of all of them: its middle, which is inside however the
+    /// region is bent. None where it is empty.
+    pub fn middle(&self, map: &Map) -> Option<[f32; 2]> {
+        let cells = middles(map.bounds, self.nx, self.ny).zip(&self.inside);
+        let inside: Vec<_> =
+            cells.filter(|(p, inside)| **inside && map.is_free(*p)).map(|(p, _)| p).collect();
+        let mean =
+            [0, 1].map(|axis| inside.iter().map(|p| p[axis]).sum::<f32>() / inside.len().max(1) as f32);
+        let far = |p: &[f32; 2]| (p[0] - mean[0]).hypot(p[1] - mean[1]);
+        inside.into_iter().min_by(|a, b| far(a).total_cmp(&far(b)))
+    }
+
+    /// The share of two regions of one map together that is in both; 1 where both are empty.
+    pub fn overlap(&self, other: &Self) -> f64 {
+        let cells = self.inside.iter().zip(&other.inside);
+        let (both, either) = cells.fold((0_usize, 0_usize), |(both, either), (a, b)| {
+            (both + usize::from(*a && *b), either + usize::from(*a || *b))
+        });
+        if either == 0 { 1.0 } else { both as f64 / either as f64 }
+    }
+
     /// The value of a cell; cells beyond the border are like the nearest ones.
     fn value(&self, column: i64, row: i64) -> f32 {
         let column = column.clamp(0, self.nx as i64 - 1) as usize;

@@ -34,7 +34,19 @@ const HEAD: f32 = 54.0;
 
 /// Draws one panel a skill as one PNG, and a remark below. Without any skill it shows the bare map.
 pub fn sets(path: impl AsRef<Path>, map: &Map, sets: &[SetPicture], note: &str) -> Result<(), FigureError> {
-    let path = path.as_ref();
+    let rows = sets.len().max(1).div_ceil(5);
+    sets_in_columns(path, map, sets, sets.len().max(1).div_ceil(rows), note)
+}
+
+/// The same with so many panels a row (at least 1): one a skill, say, and a row for each case (figure 3.2).
+pub fn sets_in_columns(
+    path: impl AsRef<Path>,
+    map: &Map,
+    sets: &[SetPicture],
+    columns: usize,
+    note: &str,
+) -> Result<(), FigureError> {
+    let (path, columns) = (path.as_ref(), columns.max(1));
     map.check(path)?;
     for set in sets {
         let Raster { nx, ny, ref inside } = set.region;
@@ -46,8 +58,7 @@ pub fn sets(path: impl AsRef<Path>, map: &Map, sets: &[SetPicture], note: &str) 
     let none = [SetPicture { title: "no skills yet".to_owned(), ..SetPicture::default() }];
     let shown = if sets.is_empty() { &none } else { sets };
 
-    let rows = shown.len().div_ceil(5);
-    let columns = shown.len().div_ceil(rows);
+    let rows = shown.len().div_ceil(columns);
     let wide = match columns {
         1 => 460.0,
         2 => 400.0,
@@ -115,9 +126,10 @@ fn entries(map: &Map, sets: &[SetPicture]) -> Vec<Entry> {
     entries
 }
 
-/// Entries for start and goal, where the map has them.
+/// Entries for start, goal and key, where the map has them.
 pub(super) fn places(map: &Map) -> impl Iterator<Item = Entry> {
     let start = (!map.starts.is_empty()).then(|| Entry::new(Mark::Start, "start"));
     let goal = map.goal.map(|_| Entry::new(Mark::Goal, "goal"));
-    start.into_iter().chain(goal)
+    let key = map.key.map(|_| Entry::new(Mark::Key, "key"));
+    start.into_iter().chain(goal).chain(key)
 }

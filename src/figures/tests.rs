@@ -49,6 +49,7 @@ fn u_maze() -> Map {
         bounds: Rect { min: [-6.0, -6.0], max: [14.0, 14.0] },
         goal: Some(([0.0, 8.0], 0.6)),
         starts: vec![[0.0, 0.0]],
+        key: None,
     }
 }
 
@@ -153,6 +154,31 @@ fn a_raster_counts_free_space_from_the_lowest_row() {
     assert_eq!(low.share_of_free_space(&map), 0.5);
     let walled = Map { walls: vec![map.bounds], ..map };
     assert!(low.share_of_free_space(&walled).is_nan());
+}
+
+#[test]
+fn regions_overlap_by_cells_and_have_their_middle_inside() {
+    let map = Map { bounds: Rect { min: [0.0, 0.0], max: [3.0, 3.0] }, ..Map::default() };
+    let left = Raster::of(&map, 3, 3, |point| point[0] < 2.0);
+    let low = Raster::of(&map, 3, 3, |point| point[1] < 1.0);
+    assert_eq!(left.overlap(&low), 2.0 / 7.0);
+    let empty = Raster::of(&map, 3, 3, |_| false);
+    assert_eq!((left.overlap(&empty), empty.overlap(&empty)), (0.0, 1.0));
+    // Of an L the mean is (1.1, 1.1), in no cell of it.
+    let bent = Raster::of(&map, 3, 3, |[x, y]| x < 1.0 || y < 1.0);
+    let [x, y] = bent.middle(&map).unwrap();
+    assert!(x < 1.0 || y < 1.0, "{x}, {y}");
+    assert_eq!(low.middle(&map), Some([1.5, 0.5]));
+    assert_eq!(empty.middle(&map), None);
+}
+
+#[test]
+fn a_key_is_a_blue_disc_where_there_is_one() {
+    let scratch = Scratch::new("key.png");
+    for key in [None, Some([8.0, 4.0])] {
+        sets(&scratch.0, &Map { key, ..u_maze() }, &[], "").unwrap();
+        assert_eq!(has(&read_png(&scratch).1, palette::KEY), key.is_some());
+    }
 }
 
 #[test]
@@ -281,4 +307,33 @@ fn the_fonts_parse_and_have_the_letters_we_use() {
     assert!(short.ends_with('…') && size == 15.0);
     assert!(text::width(&short, size, text::Weight::Regular) <= 101.0);
     assert_eq!(text::wrap("one two three", 16.0, 80.0), ["one two", "three"]);
+}
+
+#[test]
+fn dots_and_logarithms_take_odd_numbers() {
+    let scratch = Scratch::new("dots.png");
+    let column =
+        |colour, values: &[f64]| Column { label: format!("agent {colour}"), colour, values: values.into() };
+    let arena = Dots {
+        title: "arena".into(),
+        y_label: "steps".into(),
+        y_range: None,
+        columns: vec![column(1, &[3.0, 5.0, f64::NAN]), column(2, &[]), column(3, &[f64::INFINITY, 4.0])],
+    };
+    dots(&scratch.0, &[arena, Dots::default()], "not done yet: one").unwrap();
+    let (size, pixels) = read_png(&scratch);
+    assert!(size[0] == 942 && has(&pixels, palette::colour(1)), "{size:?}");
+    assert!(dots(&scratch.0, &[], "").is_err());
+
+    let falling = (0..6).map(|step| (f64::from(step), 10f64.powi(-step))).collect();
+    let odd = vec![(0.0, 0.0), (1.0, -1.0), (2.0, f64::NAN), (3.0, 0.5)];
+    let log = Panel { log: true, y_range: Some((1e-4, 1.0)), ..panel(vec![falling, odd]) };
+    curves_on(
+        &scratch.0,
+        &[log.clone(), Panel { y_range: None, ..log }],
+        &Sheet { columns: 1, remark: "x".into() },
+    )
+    .unwrap();
+    let (size, pixels) = read_png(&scratch);
+    assert!(size[0] == 820 && size[1] > 800 && has(&pixels, palette::colour(1)), "{size:?}");
 }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{Run, RunError};
 use crate::{
     draw::View,
+    figures::Raster,
     session::{Protocol, Watched},
 };
 
@@ -41,6 +42,9 @@ pub struct Summary {
     pub eval_success: f64,
     /// Median steps of the successful ones; none when there are none.
     pub eval_median_steps: Option<f64>,
+    /// The same by start, where episodes begin at more than one place.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub eval_by_start: Vec<StartSummary>,
     /// Mean share of steps that learned skills took.
     pub eval_skill_share: f64,
     /// Share of successes without primitive actions wherever a learned skill may start; none without skills.
@@ -92,6 +96,31 @@ impl GoalSummary {
     }
 }
 
+/// Frozen episodes that began at one place.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StartSummary {
+    /// The place, but for noise; metres.
+    pub start: [f64; 2],
+    /// How many there were.
+    pub episodes: u64,
+    /// Share of successes.
+    pub success: f64,
+    /// Median steps of the successful ones; none when there are none.
+    pub median_steps: Option<f64>,
+}
+
+/// Where one skill was in control, in the frozen episodes: its stretches of consecutive steps.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stretches {
+    /// How many there were.
+    pub count: usize,
+    /// Mean of where they began, in the dimensions that say where one is (`Spec::place`).
+    pub began: Vec<f64>,
+    /// Mean of where they ended: of a skill's successes that is its effect set. Of a dimension that is 0 or 1, such as
+    /// `has_key`, the share of ones.
+    pub ended: Vec<f64>,
+}
+
 /// One learned skill.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SetSummary {
@@ -100,6 +129,15 @@ pub struct SetSummary {
     pub skill: inroads_discovery::SkillRecord,
     /// Its initiation set's share of the free space; none where there is no map.
     pub area: Option<f64>,
+    /// The same where the key is held; none where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub area_with_key: Option<f64>,
+    /// Share of both sets together that is in both of them; none where there is no key.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub overlap: Option<f64>,
+    /// What it did in the frozen episodes; none where it did nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stretches: Option<Stretches>,
 }
 
 impl Run {
@@ -127,6 +165,7 @@ impl Run {
         let last = &metrics[metrics.len().saturating_sub(50)..];
         let (episodes, env_steps) = self.session.progress();
         let goals = self.session.goals();
+        let starts = View::of(&self.config.settings).map(|view| view.map.starts).unwrap_or_default();
         let settings = &self.config.settings;
         let summary = Summary {
             agent: settings.agent.clone(),
@@ -143,12 +182,13 @@ impl Run {
             eval_episodes: n,
             eval_success: share(frozen.iter().map(|w| w.summary.success)),
             eval_median_steps: median_steps(&frozen),
+            eval_by_start: if starts.len() > 1 { by_start(&starts, &frozen) } else { Vec::new() },
             eval_skill_share: mean(frozen.iter().map(Watched::skill_share)),
             chain_success: (!alone.is_empty()).then(|| share(alone.iter().map(|w| w.summary.success))),
             chain_median_steps: median_steps(&alone),
             skills: self.session.skills().len(),
             starts_covered: share(frozen.iter().map(|w| w.covered)),
-            sets: self.sets(),
+            sets: self.sets(&frozen),
             graph: self
                 .session
                 .graph()
@@ -169,14 +209,63 @@ impl Run {
             .map_err(RunError::from)
     }
 
-    fn sets(&self) -> Vec<SetSummary> {
+    fn sets(&self, frozen: &[Watched]) -> Vec<SetSummary> {
         let view = View::of(&self.config.settings);
-        let mut rasters = view
-            .iter()
-            .flat_map(|view| view.sets(self).into_iter().map(|raster| raster.share_of_free_space(&view.map)));
-        let skills = self.session.skills().into_iter();
-        skills.map(|skill| SetSummary { skill, area: rasters.next() }).collect()
+        let (without, with) =
+            view.as_ref().map(|view| (view.sets(self), view.sets_with_key(self))).unwrap_or_default();
+        let area = |raster: &Raster| view.as_ref().map(|view| raster.share_of_free_space(&view.map));
+        let skills = self.session.skills().into_iter().enumerate();
+        skills
+            .map(|(i, skill)| SetSummary {
+                area: without.get(i).and_then(area),
+                area_with_key: with.get(i).and_then(area),
+                overlap: without.get(i).zip(with.get(i)).map(|(a, b)| a.overlap(b)),
+                stretches: stretches(frozen, skill.skill as usize, &self.session.spec().place),
+                skill,
+            })
+            .collect()
     }
+}
+
+/// The episodes by start: each belongs to the place that it began nearest to.
+pub(super) fn by_start(starts: &[[f32; 2]], frozen: &[Watched]) -> Vec<StartSummary> {
+    let nearest = |watched: &Watched| {
+        let first = watched.path.first()?;
+        let far = |i: &usize| (starts[*i][0] - first[0]).hypot(starts[*i][1] - first[1]);
+        (0..starts.len()).min_by(|a, b| far(a).total_cmp(&far(b)))
+    };
+    let of = |i: usize| {
+        let there: Vec<_> = frozen.iter().filter(|watched| nearest(watched) == Some(i)).cloned().collect();
+        StartSummary {
+            start: starts[i].map(f64::from),
+            episodes: there.len() as u64,
+            success: share(there.iter().map(|w| w.summary.success)),
+            median_steps: median_steps(&there),
+        }
+    };
+    (0..starts.len()).map(of).collect()
+}
+
+/// What a skill did in some episodes.
+pub(super) fn stretches(watched: &[Watched], skill: usize, place: &[usize]) -> Option<Stretches> {
+    let mut found: Vec<(&[f32], &[f32])> = Vec::new();
+    for w in watched.iter().filter(|w| w.path.len() > w.skills.len()) {
+        let mut step = 0;
+        for stretch in w.skills.chunk_by(|a, b| a == b) {
+            let end = step + stretch.len();
+            if stretch[0] == skill {
+                found.push((&w.path[step], &w.path[end]));
+            }
+            step = end;
+        }
+    }
+    let (began, ended): (Vec<_>, Vec<_>) = found.into_iter().unzip();
+    let middle = |of: &[&[f32]]| place.iter().map(|&d| mean(of.iter().map(|s| f64::from(s[d])))).collect();
+    (!began.is_empty()).then(|| Stretches {
+        count: began.len(),
+        began: middle(&began),
+        ended: middle(&ended),
+    })
 }
 
 fn share(of: impl Iterator<Item = bool>) -> f64 {

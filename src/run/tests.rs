@@ -2,11 +2,15 @@
 
 use std::{fs, path::PathBuf, sync::atomic::AtomicBool};
 
+use inroads_agents::Summary;
+use inroads_envs::End;
+
 use super::{GoalSummary, GraphSummary, Run, RunError};
 use crate::{
     config::Config,
     draw,
-    session::{Protocol, stub},
+    run::summary::{StartSummary, Stretches, by_start, stretches},
+    session::{Protocol, Watched, stub},
 };
 
 /// A run in a folder that is gone when the test is over.
@@ -77,4 +81,32 @@ fn a_run_without_a_graph_or_goals_is_drawn_without_them() {
     draw::figures(run, &frozen).unwrap();
     assert!(!path.join("goals.jsonl").exists() && !path.join("figures/skill-graph.png").exists());
     assert!(matches!(draw::movie(run, &frozen[0], path), Err(RunError::NoMap(_))));
+}
+
+/// An episode through these places, by these skills.
+fn watched(path: &[[f32; 2]], skills: &[usize], success: bool) -> Watched {
+    let end = if success { End::Terminated } else { End::Truncated };
+    let summary = Summary { steps: skills.len() as u32, reward: 0.0, end, success, fault: None };
+    let path = path.iter().map(|at| at.to_vec()).collect();
+    Watched { path, skills: skills.to_vec(), start: 0, actions: Vec::new(), covered: false, summary }
+}
+
+#[test]
+fn a_skill_is_told_where_it_began_and_ended() {
+    let one = watched(&[[0.0, 0.0], [1.0, 0.0], [2.0, 1.0], [3.0, 1.0]], &[2, 2, 1], true);
+    let two = watched(&[[4.0, 0.0], [5.0, 1.0]], &[2], false);
+    let found = stretches(&[one, two], 2, &[0, 1]).unwrap();
+    assert_eq!(found, Stretches { count: 2, began: vec![2.0, 0.0], ended: vec![3.5, 1.0] });
+    assert_eq!(stretches(&[], 2, &[0, 1]), None);
+}
+
+#[test]
+fn episodes_belong_to_the_start_that_is_nearest() {
+    let low = watched(&[[0.1, 0.1], [1.0, 0.0]], &[0], true);
+    let high = watched(&[[-0.1, 15.9], [1.0, 16.0]], &[0], false);
+    let starts = [[0.0, 0.0], [0.0, 16.0]];
+    let row =
+        |start, episodes, success, median_steps| StartSummary { start, episodes, success, median_steps };
+    let found = by_start(&starts, &[low.clone(), high, low]);
+    assert_eq!(found, [row([0.0, 0.0], 2, 1.0, Some(1.0)), row([0.0, 16.0], 1, 0.0, None)]);
 }

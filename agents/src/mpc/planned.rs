@@ -48,7 +48,7 @@ impl Default for PlannedConfig {
             planner: PlannerKind::default(),
             refining: Refining { horizon: 10, candidates: 64, rounds: 2, elites: 8, ..Refining::default() },
             shooting: Shooting::default(),
-            reward: Reward::Sparse,
+            reward: Reward::Dense,
             values: true,
             ready: 5000,
             every: 1,
@@ -172,3 +172,6 @@ impl<L: Learner<Vec<f32>, Vec<f32>, Region>> Learner<Vec<f32>, Vec<f32>, Region>
         self.learner.batch()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -46,6 +46,9 @@ pub struct ChainConfig {
     /// Whether a step that ends the task in a state of some set is a trigger of the task, so that a second branch of the
     /// tree may reach the goal itself; else it is one of that set.
     pub goal_first: bool,
+    /// Greatest distance between the starts of trajectories that beget one skill, in the units of the domain: those from
+    /// farther apart begin different branches of the tree (3.1.4). 0: wherever they start.
+    pub branch: f32,
     /// γ of the task's rewards, for the policy over options.
     pub discount: f32,
     /// Learned skills at most.
@@ -72,6 +75,7 @@ impl Default for ChainConfig {
             intra_option: true,
             sibling_overlap: 0.35,
             goal_first: false,
+            branch: 0.0,
             discount: 0.99,
             max_skills: 20,
         }
@@ -96,11 +100,15 @@ impl ChainConfig {
                 return Err(format!("{name} is {value}; it must lie in [0, 1]"));
             }
         }
-        if !(self.tolerance.is_finite() && self.tolerance >= 0.0) {
-            return Err(format!("tolerance is {}; it must be 0 or above", self.tolerance));
+        for (name, distance) in [("tolerance", self.tolerance), ("branch", self.branch)] {
+            if !(distance.is_finite() && distance >= 0.0) {
+                return Err(format!("{name} is {distance}; it must be 0 or above"));
+            }
         }
-        if self.subgoals != Subgoals::Set && self.option_reward == OptionReward::Dense {
-            return Err("option_reward = \"dense\" measures the way to a set; with subgoals that are states it must be \"sparse\"".into());
+        if self.subgoals == Subgoals::DynamicProgramming && self.option_reward == OptionReward::Dense {
+            return Err("subgoals = \"dynamic_programming\" reads probabilities from the values of sparse rewards; set \
+                        option_reward = \"sparse\", or subgoals = \"sample\""
+                .into());
         }
         if self.subgoals == Subgoals::Set && self.explore == Explore::Events {
             return Err("explore = \"events\" sends a policy to states, which with subgoals = \"set\" none can be told; \
@@ -150,7 +158,8 @@ pub enum ChainAt {
 pub enum OptionReward {
     /// 0 for reaching the subgoal, −1 for every other step.
     Sparse,
-    /// Minus the distance to the subgoal: to the goal's point, or to the parent's set in its classifier's units.
+    /// Minus the distance to the subgoal: to the state that an execution goes for, to the goal's point, or to the parent's set
+    /// in its classifier's units.
     Dense,
 }
 

@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use inroads_agents::{Context, Experience};
+use inroads_agents::{Context, Experience, experience::Episode};
 use rand::RngExt;
 
-use super::{Aim, Chaining, Gestation, Lessons, Subgoals, lessons::about, skill::observation};
-use crate::{Initiation, Outcome, PolicyOverSkills, SkillId, SkillPolicy, Subgoal, hindsight};
+use super::{Aim, Chaining, Gestation, Lessons, OptionReward, Subgoals, lessons::about, skill::observation};
+use crate::{Goal, Initiation, Outcome, PolicyOverSkills, SkillId, SkillPolicy, Subgoal, hindsight};
 
 /// A trajectory shorter than this part of a segment brings forth no skill: it began at the event's border, and a
 /// set of two or three states would be learned from it (authors' tree code: K/5).
@@ -77,9 +77,7 @@ where
             goals.extend(self.aim.at(&episode.observations[step as usize]));
         }
         for goal in &goals {
-            for lesson in hindsight::lessons(goal, out.episode, episode, out.steps.clone()) {
-                self.policy.lesson(out.call.skill, lesson);
-            }
+            self.teach_goal(out.call.skill, goal, out.episode, episode, out.steps.clone());
         }
     }
 
@@ -96,9 +94,7 @@ where
             goals.extend(self.aim.at(achieved).filter(|goal| !goals.contains(goal)));
         }
         for goal in &goals {
-            for lesson in hindsight::lessons(goal, number, episode, 0..all.length(number)) {
-                self.policy.lesson(SkillId::GLOBAL, lesson);
-            }
+            self.teach_goal(SkillId::GLOBAL, goal, number, episode, 0..all.length(number));
         }
     }
 
@@ -111,10 +107,27 @@ where
             self.teach(k, past, 0..all.length(past), all);
             let Some(episode) = all.episode(past) else { continue };
             for goal in &goals {
-                for lesson in hindsight::lessons(goal, past, episode, 0..all.length(past)) {
-                    self.policy.lesson(k, lesson);
-                }
+                self.teach_goal(k, goal, past, episode, 0..all.length(past));
             }
+        }
+    }
+
+    /// What some steps of an episode teach the policy of skill `k` of getting to a goal.
+    fn teach_goal(
+        &mut self,
+        k: SkillId,
+        goal: &S::Goal,
+        number: u64,
+        episode: &Episode<O, A>,
+        steps: Range<u32>,
+    ) {
+        for mut lesson in hindsight::lessons(goal, number, episode, steps) {
+            if self.config.option_reward == OptionReward::Dense {
+                let afters = lesson.steps.start as usize + 1..=lesson.steps.end as usize;
+                let pays = |s| if goal.reached(s) { 0.0 } else { -self.aim.distance(s, goal) };
+                lesson.rewards = Some(episode.observations[afters].iter().map(pays).collect());
+            }
+            self.policy.lesson(k, lesson);
         }
     }
 
@@ -135,13 +148,22 @@ where
         if !siblings.all(|k| self.salient(k)) {
             return None;
         }
-        let index = self.gestations.iter().position(|g| g.subgoal == subgoal).unwrap_or_else(|| {
+        let same = |g: &Gestation| g.subgoal == subgoal && self.one_branch(g, start, all);
+        let index = self.gestations.iter().position(same).unwrap_or_else(|| {
             self.gestations.push(Gestation::new(subgoal));
             self.gestations.len() - 1
         });
         self.gestations[index].triggers.push((number, 0..step + 1));
         let complete = self.gestations[index].triggers.len() >= self.config.gestation as usize;
         complete.then(|| self.gestations.swap_remove(index))
+    }
+
+    /// Whether a trajectory that began at `start` belongs to the same branch of the tree as those of a gestation.
+    fn one_branch(&self, gestation: &Gestation, start: &O, all: &Experience<O, A>) -> bool {
+        let of_first =
+            gestation.triggers.first().and_then(|(number, _)| all.episode(*number)?.observations.first());
+        self.config.branch == 0.0
+            || of_first.is_none_or(|first| self.repertoire.apart(first, start) <= self.config.branch)
     }
 
     /// The first salient event that an episode meets, and the step that meets it. Where sets overlap the

@@ -11,6 +11,7 @@ use crate::{Initiation, SkillId, Subgoal, initiation::Act};
 /// Skills over observations `O` and actions `A` with a family of initiation sets `I`.
 pub(super) struct Repertoire<O, A, I> {
     goal: Option<Goal>,
+    place: Vec<usize>,
     success_reward: f32,
     initiation: I,
     /// Row 0 is the global option.
@@ -25,6 +26,7 @@ impl<O: AsRef<[f32]> + Clone, A, I: Initiation<O, A>> Repertoire<O, A, I> {
     pub(super) fn new(spec: &Spec, initiation: I) -> Self {
         Self {
             goal: spec.goal.clone(),
+            place: spec.place.clone(),
             success_reward: spec.success_reward,
             initiation,
             skills: vec![Skill::new(Subgoal::Task, Phase::Fixed, 0)],
@@ -98,6 +100,11 @@ impl<O: AsRef<[f32]> + Clone, A, I: Initiation<O, A>> Repertoire<O, A, I> {
             Subgoal::Task => self.goal.as_ref().map_or(0.0, |goal| goal.distance(s.as_ref())),
             Subgoal::Enter(parent) => self.initiation.distance(parent, s),
         }
+    }
+
+    /// How far two states are apart, by where one is in them.
+    pub(super) fn apart(&self, a: &O, b: &O) -> f32 {
+        self.place.iter().map(|&dim| (a.as_ref()[dim] - b.as_ref()[dim]).powi(2)).sum::<f32>().sqrt()
     }
 
     /// The learned skills of equation 3.1: those that may start at `s` and do not end there.

@@ -6,7 +6,7 @@ use inroads_sim::{
     view::{Mark, Scene, Solid, colour},
 };
 
-use super::{Heading, ground::Ground};
+use super::{Heading, ground::Ground, task::HAS_KEY};
 
 /// How far a camera stands off, metres.
 const DISTANCE: f32 = 8.0;
@@ -55,6 +55,14 @@ impl Picture {
         let mut seen = self.resting.clone();
         seen[..2].copy_from_slice(&at.map(|x| x as f32));
         seen
+    }
+
+    /// The same with the key in its possession; none where there is no key.
+    pub fn holding_at(&self, at: [f64; 2]) -> Option<Vec<f32>> {
+        self.key?;
+        let mut seen = self.observation_at(at);
+        seen[HAS_KEY] = 1.0;
+        Some(seen)
     }
 
     /// Which way the robot looks: radians from the x axis towards the y axis, NaN when it looks nowhere.

@@ -191,7 +191,7 @@ mod tests {
     use super::*;
     use crate::{
         End, Environment, Refused, Step,
-        maze::{CORRIDOR, U_MAZE},
+        maze::{CORRIDOR, U_MAZE, catalogue::LOCK_AND_KEY},
     };
 
     fn corridor() -> PointMaze {
@@ -246,5 +246,9 @@ mod tests {
         assert_eq!((picture.goal, picture.starts.as_slice()), ([0.0, 8.0], &[[0.0, 0.0]][..]));
         assert_eq!(picture.bounds, Rectangle { low: [-2.0, -2.0], high: [10.0, 10.0] });
         assert_eq!(picture.observation_at([3.0, 1.5]), [3.0, 1.5, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(picture.holding_at([3.0, 1.5]), None, "there is no key");
+        let locked = PointMaze::new(&LOCK_AND_KEY).unwrap().picture();
+        assert_eq!(locked.observation_at([3.0, 1.5])[..4], [3.0, 1.5, 0.0, 0.0]);
+        assert_eq!(locked.holding_at([3.0, 1.5]).unwrap()[..4], [3.0, 1.5, 1.0, 0.0]);
     }
 }

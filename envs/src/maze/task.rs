@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// Index of `has_key` in the observations of mazes with a lock (author's order: behind x and y).
-const HAS_KEY: usize = 2;
+pub(super) const HAS_KEY: usize = 2;
 /// What a step adds to the time that is observed (the author's ants of 30 dimensions).
 const TICK: f32 = 0.001;
 /// Steps without an action after which a robot rests: two seconds of the ant.
