@@ -42,6 +42,8 @@ struct Row {
 
 /// Learning begins with the first batch: otherwise thousands of steps would have to be lived before any could be timed.
 const SOON: &str = "memory.warm_up=256";
+/// So many updates before the first plan, for the same reason.
+const READY: &str = "control.plans.ready=200";
 /// Beside the goals of the U-mazes, of the point and of the ant.
 const NEAR: [[f64; 2]; 2] = [[3.0, 8.0], [1.2, 8.0]];
 
@@ -53,8 +55,8 @@ const ROWS: &[Row] = &[
     Row { classifier: Some(refits::BINARY), ..flat("dsc", "ant-u-maze", NEAR[1]) },
     robust("point-maze", &[SOON, "control.model=false"], NEAR[0]),
     robust("ant-u-maze", &[SOON, "control.model=false"], NEAR[1]),
-    Row { plans: true, ..robust("point-maze", &[SOON, "control.model=true"], NEAR[0]) },
-    Row { plans: true, ..robust("ant-u-maze", &[SOON, "control.model=true"], NEAR[1]) },
+    Row { plans: true, ..robust("point-maze", &[SOON, READY, "control.model=true"], NEAR[0]) },
+    Row { plans: true, ..robust("ant-u-maze", &[SOON, READY, "control.model=true"], NEAR[1]) },
 ];
 
 const fn flat(agent: &'static str, environment: &'static str, near: [f64; 2]) -> Row {
@@ -65,8 +67,8 @@ const fn robust(environment: &'static str, settings: &'static [&'static str], ne
     Row { settings, classifier: Some(refits::DUAL), ..flat("robust-dsc", environment, near) }
 }
 
-/// Steps at most until there is a skill, and steps that are timed.
-const STEPS: [u32; 2] = [3000, 2000];
+/// Steps at least before any is timed; at most, where there is no skill yet; and steps that are timed.
+const STEPS: [u32; 3] = [1000, 3000, 2000];
 /// Steps of an episode at most.
 const LIMIT: u32 = 300;
 
@@ -117,7 +119,7 @@ impl Row {
     }
 
     fn name(&self) -> String {
-        let set = self.settings.iter().filter(|set| **set != SOON);
+        let set = self.settings.iter().filter(|set| ![SOON, READY].contains(*set));
         std::iter::once(self.agent.to_owned())
             .chain(set.map(|set| format!("`{set}`")))
             .collect::<Vec<_>>()
@@ -136,17 +138,15 @@ impl Row {
         let build = entry.continuous.expect("the robots of the mazes are moved by numbers");
         let agent = build(near.spec(), &config.agent, Backend::Flex, Seed(0))?;
         let mut life = Life { agent, episodes: 0 };
-        let unskilled = |life: &Life, steps| {
-            steps < STEPS[0] && (self.classifier.is_none() || life.agent.skills().is_empty())
-        };
         let (mut steps, clock) = (0, Clock::default());
-        while unskilled(&life, steps) && (self.classifier.is_some() || steps < STEPS[0] / 4) {
+        let waits = |life: &Life| self.classifier.is_some() && life.agent.skills().is_empty();
+        while steps < STEPS[0] || steps < STEPS[1] && waits(&life) {
             steps += life.episode(&mut near, &clock);
         }
         let mut anywhere = self.world(Starts::Anywhere);
         let (clock, updates, refits) = (Clock::default(), life.updates(), life.refits());
         let (before, began, mut steps) = (processor_time(), Instant::now(), 0);
-        while steps < STEPS[1] {
+        while steps < STEPS[2] {
             steps += life.episode(&mut anywhere, &clock);
         }
         let elapsed = began.elapsed().as_secs_f64();

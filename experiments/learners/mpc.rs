@@ -46,7 +46,7 @@ const APART: usize = 20;
 const STATES: usize = 30;
 
 /// Goals that are walked to with each planner; random shooting thinks for about a second a step.
-const WALKED: u64 = 4;
+const WALKED: u64 = 3;
 
 /// What is compared.
 struct Variant {
