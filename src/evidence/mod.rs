@@ -8,7 +8,7 @@
 //!
 //! | module | |
 //! |---|---|
-//! | `file` | the experiment file |
+//! | `file`, `drawing` | the experiment file; what it can ask to be drawn |
 //! | `plan` | the runs that it asks for |
 //! | `state` | what has become of each |
 //! | `work` | doing them, stopped and taken up again, in shards |
@@ -19,6 +19,7 @@
 //! | `figure`, `picture` | what is drawn of many runs, and of one |
 
 mod claim;
+mod drawing;
 mod error;
 mod figure;
 mod file;
@@ -31,9 +32,10 @@ mod state;
 mod work;
 
 pub use claim::Judged;
+pub use drawing::{Axis, Choice, Draw, Options};
 pub use error::EvidenceError;
 pub use figure::draw;
-pub use file::{Arm, Axis, Budget, Choice, Claim, Domain, Draw, Experiment, Options, Rule, find};
+pub use file::{Arm, Budget, Claim, Domain, Experiment, Rule, find};
 pub use metric::{Metric, Point, Quantity};
 pub use plan::{Asked, Plan, Shard, Wanted};
 pub use price::price;
