@@ -23,13 +23,14 @@ fn training(out: &Path, episodes: u64, model: bool) -> Command {
         "policy.hidden=[32, 32]".into(),
         "policy.batch=64".into(),
         "memory.warm_up=500".into(),
+        "memory.updates_per_step=1".into(),
         "chain.gestation=2".into(),
         "chain.segment=5".into(),
         "chain.timeout=20".into(),
         "chain.initiation_episodes=2".into(),
         "chain.initiation_successes=2".into(),
-        "control.plans.dynamics.hidden=[32]".into(),
-        "control.plans.ready=500".into(),
+        "control.plans.dynamics.hidden=[64]".into(),
+        "control.plans.ready=1500".into(),
         "control.plans.hold=2".into(),
     ];
     for set in sets {
@@ -46,16 +47,17 @@ fn tests(run: &Path) -> Vec<TestMetrics> {
 #[test]
 fn a_corridor_is_chained_with_plans_and_without() {
     let folder = Folder::new("robust");
-    for model in [true, false] {
+    for (model, episodes) in [(true, 60), (false, 120)] {
         let run = folder.join(if model { "plans" } else { "policies" });
-        succeed(&mut training(&run, 60, model));
+        succeed(&mut training(&run, episodes, model));
         let tests = tests(&run);
         assert_eq!(
             tests.iter().map(|t| t.episodes).collect::<Vec<_>>(),
-            (1..=12).map(|n| 5 * n).collect::<Vec<_>>()
+            (1..=episodes / 5).map(|n| 5 * n).collect::<Vec<_>>()
         );
-        let last = tests.last().unwrap();
-        assert!(last.success() == 1.0, "{last:?}");
+        let (last, latest) = (tests.last().unwrap(), &tests[tests.len() - 4..]);
+        let success = latest.iter().map(TestMetrics::success).sum::<f64>() / 4.0;
+        assert!(success >= 0.75, "{latest:?}");
         assert!(last.skills.len() >= 2 && last.chain.is_some_and(|p| p > 0.0), "{last:?}");
         assert_eq!(last.skills[1].enters, Some(1), "the second skill enters the first one's set");
     }
