@@ -2,7 +2,7 @@
 //!
 //! An experiment file (`experiments/fig-*.toml`) says what the thesis claims, which agents are held against which, where,
 //! for how long and at what price. `inroads reproduce` makes a [`Plan`] of it, does the runs that are not done
-//! ([`work`]), draws the figure with every seed and writes [`Record`], the JSON beside it, with a verdict a claim.
+//! (`work`), draws the figure with every seed and writes [`Record`], the JSON beside it, with a verdict a claim.
 //! `inroads claims` reads all of those. The rules behind it are the project's rules of evidence: every claim has a price,
 //! one budget for all agents of a domain, three words for verdicts, contradictions stay in the table.
 //!
